@@ -134,6 +134,14 @@ def test_the_environment_chooses_the_language(console: Console, monkeypatch: pyt
     assert "找不到" in console("run", "missing.nc", "--control", "fanuc-m").err
 
 
+def test_a_choice_of_kernels_that_there_is_not_is_told(
+    console: Console, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for value, said in (("Python", "POLYCNC_KERNELS=Python"), ("python", ""), ("", "")):
+        monkeypatch.setenv("POLYCNC_KERNELS", value)
+        assert console("--version").err.partition(" chooses")[0].removeprefix("polycnc: ") == said
+
+
 def test_a_file_that_may_not_be_read_is_told(console: Console) -> None:
     path = console.file("secret.nc", GOOD)
     path.chmod(0)

@@ -13,7 +13,7 @@ import pytest
 from tqdm.utils import disp_len
 
 from polycnc.cli import progress
-from polycnc.cli.commands import features, plot
+from polycnc.cli.commands import data, features, memory, plot
 from polycnc.cli.console import say
 from polycnc.cli.progress import Reached, Waiting, WaitingForRun, Watch, watched
 from polycnc.messages.catalogue import set_language
@@ -258,6 +258,27 @@ def test_features_of_a_folder_are_counted_by_files(console: Console, monkeypatch
         )
     console("features", "--from", "cases")
     assert told[0].reached(0.0) == Reached("files", 2, 2 / 3)
+
+
+TAPE = "%\n" + "".join(f"O{number:04d}\nG0 X1.\nM30\n" for number in range(1, 5)) + "%\n"
+
+
+def test_programs_that_are_written_and_read_are_counted_by_files(
+    console: Console, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = [counted_by(monkeypatch, module) for module in (data, memory)]
+    console.file("tape.nc", TAPE)
+    console("data", "import", "tape.nc", "--control", "fanuc-m", "--folder", "out")
+    console("data", "export", "programs", "tape.nc", "out/O0001.nc", "--control", "fanuc-m", "-o", "again.nc")
+    console("memory", "new", "syntec.mem", "--control", "syntec-mill")
+    console.file("one.nc", "G0 X1.\nM30\n")
+    console.file("two.nc", "G0 X2.\nM30\n")
+    console("memory", "import", "syntec.mem", "one.nc", "two.nc")
+    console("memory", "export", "syntec.mem", "programs", "--folder", "programs")
+    assert [[waiting.reached(0.0) for waiting in each] for each in told] == [
+        [Reached("files", 3, 3 / 4), Reached("files", 1, 1 / 2)],
+        [Reached("files", 1, 1 / 2)],
+    ]
 
 
 # ---- a run -----------------------------------------------------------------------------------------------------------

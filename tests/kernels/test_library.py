@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from array import array
 from ctypes import Structure
 from pathlib import Path
@@ -177,6 +179,20 @@ def test_a_file_that_cannot_be_loaded_is_none(tmp_path: Path) -> None:
     damaged = tmp_path / "damaged.so"
     damaged.write_bytes(b"code")
     assert library(damaged).lack is Lack.MISSING
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="ELF")
+@pytest.mark.parametrize("share", [0.001, 0.1, 0.5, 0.99])
+def test_a_file_that_is_cut_short_is_none(file: Path, tmp_path: Path, share: float) -> None:
+    """The disk was full, or a copy was interrupted: the loader of the system would end the process."""
+    short, code = tmp_path / "short.so", file.read_bytes()
+    short.write_bytes(code[: int(share * len(code))])
+    command = [
+        sys.executable,
+        "-c",
+        f"from polycnc.kernels import native; print(native.load({str(short)!r}))",
+    ]
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "None\n"
 
 
 def test_machine_code_holds_its_sources(file: Path) -> None:

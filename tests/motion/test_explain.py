@@ -12,6 +12,7 @@ from polycnc.motion import Settings
 from polycnc.motion.explain import Cause, TimeAccount, account
 from polycnc.motion.explain.compiled import Kernels, kernels
 from polycnc.motion.planner import Planner
+from polycnc.session import open_session
 from polycnc.toolpath import Context
 from polycnc.toolpath.context import Pace
 from polycnc.toolpath.modes import AccelerationMode, CornerMode
@@ -131,3 +132,13 @@ def test_no_index_counts_from_the_end(mode: AccelerationMode, monkeypatch: pytes
     whole = account_of(varied(400), lead)[2].by_axis
     monkeypatch.setattr(account, "kernels", lambda **_: Kernels._make(map(strict, kernels(compiled=False))))
     assert account_of(varied(400), lead)[2].by_axis == whole
+
+
+def test_a_turn_at_the_pole_takes_time_and_is_no_way() -> None:
+    text = b"G98 G0 X60. Z5. C0\nG12.1\nG1 X-60. F1000.\nX60.\nG13.1\nM30\n"
+    session = open_session(text, control="fanuc-0i-tf", machine="lathe-c-transmit", keep=False)
+    account = session.explain_time()
+    times = session.run().plan.times
+    parts = account.parts.values()
+    assert sum(part.seconds for part in parts) == pytest.approx(times.cutting_s + times.rapid_s)
+    assert sum(part.way for part in parts) == pytest.approx(times.cutting_mm + times.rapid_mm)

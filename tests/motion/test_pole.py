@@ -155,3 +155,11 @@ def test_the_main_run_turns_at_the_centre_too(blocks: list[str], override: float
         assert np.abs(ways[:, i]).max() / cycle <= max(axis.rapid, axis.max_feed) * SLACK
         assert np.abs(np.diff(ways[:, i], 1)).max() / cycle**2 <= axis.acceleration * SLACK
         assert np.abs(np.diff(ways[:, i], 2)).max() / cycle**3 <= axis.jerk * SLACK
+
+
+def test_an_axis_that_goes_on_across_the_centre_steps_over_it_within_its_jerk() -> None:
+    text = "G18 G94 DIAMON SOFT G642 G0 X60 Z5\nTRANSMIT\nG3 X-60 Y0 CR=151.9627 F1000\nTRAFOOF\nM30\n"
+    result = polycnc.run(text.encode(), control="sinumerik-840d", machine="lathe-c-transmit")
+    places = samples_of(result).position[:, 0]
+    assert places.min() < -1.0 < 1.0 < places.max()
+    assert np.abs(np.diff(places, 3)).max() <= MACHINE.axis["X"].jerk * 0.001**3 * SLACK

@@ -79,6 +79,8 @@ def _termination_interrupts() -> Iterator[None]:
 def _run(words: list[str]) -> int:
     try:
         set_language(language_of(words))
+        if "POLYCNC_KERNELS" in os.environ:
+            _say_if_unknown()
         asked = plain.read(words)
         with watched(" ".join(["polycnc", *words[:1]])):
             began = monotonic()
@@ -89,6 +91,14 @@ def _run(words: list[str]) -> int:
     except Exception as error:  # noqa: BLE001 - `_told` says what it was
         return fail(_told(error), BAD_USE)
     return status if isinstance(status, int) else 0
+
+
+def _say_if_unknown() -> None:
+    """A note where the environment chooses kernels that there are not: nobody shall think that plain ones run."""
+    from polycnc.kernels.native import CHOICE, PLAIN
+
+    if os.environ[CHOICE] not in ("", PLAIN):
+        note(f"polycnc: {text('cli.kernels.unknown', name=CHOICE, value=os.environ[CHOICE], known=PLAIN)}")
 
 
 def _say_if_plain() -> None:

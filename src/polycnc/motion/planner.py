@@ -69,6 +69,7 @@ class Planner:
             limits, the state before them, and whether they are accelerated after the interpolation.
         on_wait: Called when a row must wait, with row number, share (a field of `Times`), context number and seconds;
             before its pieces become final, but for what runs beside motion and outlasts it.
+        is_turning: Pieces that become final are of a turn at the pole.
     """
 
     def __init__(
@@ -115,12 +116,11 @@ class Planner:
         self._waits.rapid_stops, self._waits.spindle_wait = settings.rapid_stops, settings.spindle_wait
         self._waits.step, self._beside = self._step, Beside(self._lag_of, self._settle_parallel)
         self._final_row = 0  # rows before it are planned
+        self.is_turning = False
         self._rests: set[int] = set()
         self._come_to_rest: dict[int, float] = {}  # by row: averages of a run that a function outlasts
-        self._outlasted = (
-            -1,
-            0.0,
-        )  # the row that has waited last for a function beside the block in front, seconds
+        # The row that has waited last for a function beside the block in front, seconds.
+        self._outlasted = -1, 0.0
         self._runs: LawRuns | None = None  # until a context asks for it
         self._rapid_context: Context | None = None  # whose rapids were looked at last
         self._rapids_are_soft = False
@@ -257,8 +257,9 @@ class Planner:
             return 0.0
         first = self._piece_of(min(begins))
         for piece in reversed(range(self._state.run.pieces)):
-            pause = self._pieces[piece * self._width + PieceRecord.PAUSE]
-            if pause > 0.0:
+            at = piece * self._width
+            pause = self._pieces[at + PieceRecord.PAUSE]
+            if pause > 0.0 or self._pieces[at + PieceRecord.ENTRY2] == 0.0:  # here its run begins
                 return pause if piece < first else 0.0
         return 0.0
 
@@ -403,9 +404,9 @@ class Planner:
         self._pieces[: len(records)] = records
         self._state.run.pieces, self._state.run.stop = count, 1.0
         way, row_way = 2 * slot + 1, 2 * (number - self._first_row) + 1
-        before = self._slots[way], self._rows[row_way]
+        before, self.is_turning = (self._slots[way], self._rows[row_way]), True
         self._look_ahead(number)
-        self._slots[way], self._rows[row_way] = before
+        (self._slots[way], self._rows[row_way]), self.is_turning = before, False
         last = (count - 1) * self._width + PieceRecord.VECTORS + (PLACES + 1) * self._axes
         self._state.position[:] = records[last : last + self._axes]
 
@@ -504,6 +505,7 @@ class Planner:
             if 2 * forgotten >= len(self._rows):  # those behind them move up
                 del self._rows[:forgotten]
                 self._first_row = needed
+                self._row_waits = {row: waits for row, waits in self._row_waits.items() if row >= needed}
 
     def _settled(self, count: int) -> int:
         """The number of pieces in the buffer that no row to come can change."""
@@ -541,7 +543,7 @@ class Planner:
         row = min(row, self._next_row - 1)
         self._reach(row + 1)
         self._rows[2 * (row - self._first_row)] += seconds
-        if self._keep_rows and share != "dwell_s":  # a dwell is what its row is for
+        if share != "dwell_s":  # a dwell is what its row is for
             self._row_waits[row] = self._row_waits.get(row, 0.0) + seconds
         shares = self._waited.setdefault(context, {})
         shares[share] = shares.get(share, 0.0) + seconds
@@ -554,12 +556,12 @@ class Planner:
             if behind > planned_rows:
                 open_yet.append(entry)
                 continue
-            row, waited = self._outlasted
-            before = waited if row in (entry.row, behind) else 0.0
+            waited = self._outlasted[1] if self._outlasted[0] == behind else 0.0
             motion = self._seconds(entry.row, behind) + self._come_to_rest.get(behind, 0.0)
-            left = entry.seconds - motion + (before if row == entry.row else -before)
+            # What its block waits for, such as a change of the tool, is over when the function begins.
+            left = entry.seconds - motion + self._row_waits.get(entry.row, 0.0) - waited
             if left > 0.0:
-                self._outlasted = behind, left + (waited if row == behind else 0.0)
+                self._outlasted = behind, left + waited
                 self._wait(behind, "auxiliary_s", entry.context, left)
                 self._beside.stand(behind, left)
         self._waits.parallel[:] = open_yet
@@ -578,7 +580,7 @@ class Planner:
             total += times
         used = tuple(tool for tool in tools.values() if tool.tool or tool.name or tool.times.total_s > 0.0)
         without_feed, without_spindle = self._state.run.without_feed, self._state.run.standing_spindle
-        rows = self._rows[::2], self._rows[1::2], self._row_waits
+        rows = self._rows[::2], self._rows[1::2], self._row_waits if self._keep_rows else {}
         return Plan(total, used, *rows, without_feed, without_spindle)
 
 

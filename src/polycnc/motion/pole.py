@@ -32,8 +32,8 @@ if TYPE_CHECKING:
     from polycnc.transformation.contract import Geometry, Transformation
     from polycnc.transformation.pole import Pole
 
-#: Radius of the ring, mm.
-RING_MM = 1e-4
+#: Radius of the ring, mm: a path across it steps over it at rest, by less than an axis could move in a millisecond.
+RING_MM = 1e-5
 #: A following axis may step by what it can do within its limits in this time: no sample shows it.
 KINK_S = 1e-3
 #: Turns smaller than this (radians) count as none; a turn by half a round, but for this, is one forward.

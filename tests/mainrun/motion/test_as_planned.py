@@ -33,6 +33,19 @@ DOUBTFUL: dict[str, tuple[str, str, dict[str, object]]] = {
     "a stop that is switched off": ("meldas-m", "G64 G1 X10. F6000\nM1\nX20. Y1.\nM30\n", {}),
     "a wait of the program": ("syntec-mill", "%@MACRO\nG64 G1 X10. F6000;\nWAIT();\nG1 X20. Y1.;\nM30;\n", {}),
     "a function that outlasts its block": ("fanuc-m", "G1 X1. F6000 M8\nX2. M9\nX3. M8\nG4 P100\nM30\n", {}),
+    "a function in a block that waits for its tool": ("syntec-mill", "T2 M6\nG1 X1. F1000. M8\nM30\n", {}),
+    "a function beside BRISK behind SOFT": (
+        "sinumerik-840d", "SOFT\nG1 X20 F8000\nBRISK\nX21 M8\nM30\n", {},
+    ),
+    "an arc at constant surface speed under SOFT": (
+        "sinumerik-840d", "G18 DIAMON SOFT G0 X46.392\nG96 S120 M3\nG3 X75.7 Z-14.9 CR=16.7 F0.5\nG1 X80\nM30\n",
+        {"machine": "lathe2"},
+    ),
+    "an arc at constant surface speed behind a corner": (
+        "sinumerik-840d",
+        "G18 DIAMON BRISK G64 G95\nG96 S120 M3\nG0 X133.1 Z-26.9\nG2 X119.7 Z-24.2 CR=7.2 F0.2\nM30\n",
+        {"machine": "lathe2"},
+    ),
     "a stroke behind a clamp": (
         "fanuc-0i-tf", "G98 G0 X40. Z0 C0\nG83 Z-10. R-2. F1000. M68\nG80\nM30\n",
         {"machine": "lathe-c", "parameters": CLAMPS},

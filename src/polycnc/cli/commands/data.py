@@ -6,6 +6,7 @@ from polycnc.cli import options
 from polycnc.cli.console import fail, say, show
 from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.output import write_whole
+from polycnc.cli.progress import Waiting
 from polycnc.deferred.typing import TYPE_CHECKING, Annotated
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
@@ -114,8 +115,8 @@ def _tape(paths: Sequence[Path]) -> str:
     from polycnc.program.store import load_programs
 
     lines = ["%"]
-    for path in paths:
-        for program in load_programs(str(path)):
+    with Waiting("polycnc data export", len(paths), "files") as waiting:
+        for program in (each for path in waiting.each(paths) for each in load_programs(str(path))):
             body = [line.rstrip() for line in program.lines if line.strip() not in ("", "%")]
             if not body or not _is_heading(body[0]):
                 stem = program.name.rpartition(".")[0] or program.name
@@ -158,9 +159,10 @@ def _import_programs(file: Path, content: str, folder: Path, *, overwrite: bool)
         return fail(text("data.exists", file=present), 1)
     folder.mkdir(parents=True, exist_ok=True)
     refuse_inputs(targets, [file])
-    for path, body in targets.items():
-        write_whole(path, "\n".join(["%", *body, "%"]) + "\n")
-        say(str(path))
+    with Waiting(file.name, len(targets), "files") as waiting:
+        for path, body in waiting.each(targets.items()):
+            write_whole(path, "\n".join(["%", *body, "%"]) + "\n")
+            say(str(path))
     return 0
 
 

@@ -6,6 +6,7 @@ from polycnc.cli import options
 from polycnc.cli.console import fail, note, say, show
 from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.output import write_whole
+from polycnc.cli.progress import Waiting
 from polycnc.deferred.typing import TYPE_CHECKING, Annotated
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
@@ -107,9 +108,10 @@ def export(
         return fail(text("data.exists", file=present), 1)
     refuse_inputs(targets, [file])
     folder.mkdir(parents=True, exist_ok=True)
-    for path, content in targets.items():
-        write_whole(path, content)
-        say(str(path))
+    with Waiting(file.name, len(targets), "files") as waiting:
+        for path, content in waiting.each(targets.items()):
+            write_whole(path, content)
+            say(str(path))
     for table, key in written.left_out:
         note(text("memory.left-out", table=text(f"memory.table.{table.replace(' ', '-')}"), entry=key))
     return 1 if written.left_out else 0

@@ -7,7 +7,10 @@ from math import inf
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
+from polycnc.motion.kernels.arcs import asked_on_arc, facing_radius
 from polycnc.motion.kernels.columns import ContextRecord, new_state
+from polycnc.motion.kernels.feeds import follows_radius
+from polycnc.motion.third_order.bends.stretches import ARC
 from polycnc.motion.third_order.laying.room import RunRoom
 from polycnc.motion.third_order.laying.rows import NO_STRETCH, add_row, begin_run, goes_by_law
 
@@ -15,6 +18,7 @@ if TYPE_CHECKING:
     from array import array
 
     from polycnc.mainrun.preparation.items import ChannelRates, Move
+    from polycnc.mainrun.preparation.layout import PreparedRow
     from polycnc.motion.third_order.bends.stretches import Stretches
 
 #: FREE of the kernels: no feed bounds a stretch, for overrides act on that.
@@ -85,6 +89,8 @@ class LawRows:
         count = room.laid.stretches
         if count == first:
             return True  # it has no way
+        if room.path.form[first] == ARC and follows_radius(contexts, record):
+            move.asks = self._asks_of_arc(prepared, record, contexts, first)
         end, top2 = room.path.way[count], min(room.path.cap2[first:count])
         row = RowOfRun(move, begin, end, top2)
         self.rows.append(row)
@@ -96,6 +102,24 @@ class LawRows:
             self.bars = self.bars or cap2 == 0.0
             room.path.cap2[e] = cap2 or room.path.cap2[e]
         return True
+
+    def _asks_of_arc(
+        self, prepared: PreparedRow, record: int, contexts: array[float], first: int
+    ) -> tuple[tuple[float, float], ...]:
+        """What the program asks for in the stretches of an arc whose spindle follows the radius, by shares of its way.
+
+        Each has the radius in its middle, the first one that at its start, as `add_arc` has it.
+        """
+        room, limits = self._room, prepared.limits
+        count = room.laid.stretches - first
+        begin, step = room.path.way[first], room.lead.arc.sweep / count
+        length, asks = room.path.way[first + count] - begin, []
+        for part in range(count):
+            radius = facing_radius((part + 0.5) * step if part else 0.0, limits, room.lead)
+            asked = asked_on_arc(prepared.curves, contexts, record, limits, room.lead, length, radius)
+            share = (room.path.way[first + part + 1] - begin) / length
+            asks.append((share, asked if asked > 0.0 else inf))
+        return tuple(asks)
 
     def forget(self, row: RowOfRun) -> None:
         """Nobody will ask for what lies before a row."""

@@ -11,7 +11,15 @@ from polycnc.mainrun.preparation.items import Move
 from polycnc.mainrun.preparation.layout import Before, PreparedRow
 from polycnc.mainrun.preparation.run_blocks import largest_override
 from polycnc.motion.kernels.arcs import asked_on_arc, facing_radius
-from polycnc.motion.kernels.columns import SHARES, ContextRecord, Form, PieceRecord, Rows, piece_width
+from polycnc.motion.kernels.columns import (
+    FROM_CORNER,
+    SHARES,
+    ContextRecord,
+    Form,
+    PieceRecord,
+    Rows,
+    piece_width,
+)
 from polycnc.motion.kernels.feeds import faster, follows_radius, growth_of, is_rapid, straight_speed
 from polycnc.motion.third_order.laying.rows import goes_by_law
 from polycnc.motion.time_constants import Use, use_of
@@ -192,7 +200,7 @@ class RowLayer:
         """
         state, contexts = self._buffer.state, self._buffer.contexts
         follows = self.facing >= 0 and follows_radius(contexts, record)
-        lengths = [self._buffer.field(at, PieceRecord.LENGTH) for at in found] if follows else [1.0]
+        lengths = self._parts(found) if follows else [1.0]
         total, done, asks = sum(lengths), 0.0, []
         for length in lengths:
             share = length / total
@@ -206,6 +214,17 @@ class RowLayer:
             done += share
             asks.append((done, speed / factor if speed > 0.0 else inf))
         return tuple(asks)
+
+    def _parts(self, found: Sequence[int]) -> list[float]:
+        """Lengths of the parts that a row was laid in, before a corner cut what is bent for it off the first one."""
+        field, lengths = self._buffer.field, list[float]()
+        for k, at in enumerate(found):
+            first = k == 1 and field(found[0], PieceRecord.ZONE) == FROM_CORNER
+            if first and field(found[0], PieceRecord.CAP2) == field(at, PieceRecord.CAP2):
+                lengths[0] += field(at, PieceRecord.LENGTH)
+            else:
+                lengths.append(field(at, PieceRecord.LENGTH))
+        return lengths
 
     def _radius(self, record: int, middle: float, *, is_arc: bool) -> float:
         """Turning radius at a share of the row laid last, as the planner takes it."""

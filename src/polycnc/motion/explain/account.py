@@ -146,17 +146,29 @@ class TimeAccount:
         if len(self._real) < 3 * count:
             self._real = array("d", bytes(24 * count))
         tables = Tables(self._notes, self._contexts, self._limits, self._paces)
+        # A turn at the pole goes from rest to rest, by degrees that are no way of the path.
+        ways = self._stand() if self._planner.is_turning else None
         found = self._kernels.share_out(
             records, count, self._n, tables, self._first, self._ledger, self._parts, self._real
         )
         for k in range(found):
             self._look_at_real_axes(records, *self._real[3 * k : 3 * k + 3])
+        if ways is not None:
+            self._parts[1::2], self._ledger.pending_mm = ways, 0.0
         done = int(records[(count - 1) * piece_width(self._n) + PieceRecord.ROW]) - self._first
         if done >= MANY:
             del self._notes[: done * Note.SIZE]
             self._first += done
         if self._next is not None:
             self._next(records, count)
+
+    def _stand(self) -> array[float]:
+        """The axes rest behind the pieces so far: what they have braked for; the ways of all parts."""
+        ledger, at = self._ledger, 2 * Held.STANDSTILL * (self._n + 1)
+        self._parts[at] += ledger.pending_s
+        self._parts[at + 1] += ledger.pending_mm
+        ledger.pending_s = ledger.pending_mm = 0.0
+        return self._parts[1::2]
 
     def _look_at_real_axes(self, records: array[float], piece: float, seconds: float, way: float) -> None:
         """Count what a transformation bounds: a velocity of a real axis, or an acceleration."""
