@@ -120,7 +120,7 @@ class Room:
             self._knots, self._axes = count, n
             self.samples = Samples(numbers(count), numbers(count), *(whole(count) for _ in range(3)))
             self.spline = spline_for(count, n)
-            self.pieces = Pieces(*(numbers(count) for _ in range(3)), whole(count))
+            self.pieces = Pieces(numbers(count), numbers(count), numbers(count), whole(count))
 
     def widen(self) -> None:
         """The knots need more."""
