@@ -270,6 +270,8 @@ class Toolpath:
     Attributes:
         kind_before_chunk: Kind of the last row in front of the chunk that is written.
         rests: Rows before which the axes rest because nothing may be prepared beyond, in order; events say the others.
+        block_starts: Rows with which another block begins, in order, though perhaps of the same line: those of blocks
+            that must be told apart, and of what follows on them.
     """
 
     def __init__(
@@ -284,6 +286,8 @@ class Toolpath:
         self.contexts: list[Context] = []
         self.programs: list[str] = []
         self.rests: list[int] = []
+        self.block_starts: list[int] = []
+        self._is_apart = False
         self._context_numbers: dict[Context, int] = {}
         self._program_numbers: dict[str, int] = {}
         self._chunk_rows = chunk_rows
@@ -305,9 +309,28 @@ class Toolpath:
 
     def rest(self, row: int | None = None) -> None:
         """The axes rest before a row of the chunk that is written; None for the next one."""
-        number = self._rows_before + (len(self.chunk) if row is None else row)
-        if not self.rests or self.rests[-1] < number:
-            self.rests.append(number)
+        self._note(self.rests, len(self.chunk) if row is None else row)
+
+    def _note(self, rows: list[int], row: int) -> None:
+        """Note a row of the chunk that is written among rows that are in order."""
+        number = self._rows_before + row
+        while rows and rows[-1] > number:  # of a block that was taken back
+            rows.pop()
+        if not rows or rows[-1] < number:
+            rows.append(number)
+
+    def set_block_apart(self, row: int) -> None:
+        """The block that runs, which begins with a row of the chunk, is told apart from those of the same line."""
+        self._note(self.block_starts, row)
+        self._is_apart = True
+
+    def end_block(self) -> int:
+        """The block that runs is over; gives the number of rows of the chunk that is written."""
+        rows = len(self.chunk.kind)
+        if self._is_apart:
+            self._note(self.block_starts, rows)
+            self._is_apart = False
+        return rows
 
     def context_number(self, context: Context) -> int:
         """The number of a context; a new one is added."""
