@@ -217,6 +217,8 @@ class Planner:
             if outlasting or edge in rests:
                 self._rest()
                 self._state.run.overlap = self._state.run.rapid_overlap = 0.0
+            for column, place in self._toolpath.counts.get(chunk.first + edge, {}).items():
+                self._state.position[column] = place
             for entry in outlasting:
                 self._come_to_rest[entry.row] = self._averages(entry)
             if edge in switches:
@@ -232,13 +234,11 @@ class Planner:
 
     def _rests_of(self, chunk: Chunk) -> set[int]:
         """Rows of a chunk before which the axes rest because nothing was prepared beyond."""
-        rests, first = self._toolpath.rests, chunk.first
-        ahead = rests[bisect_left(rests, first) : bisect_left(rests, first + len(chunk))]
-        return {row - first for row in ahead}
+        rests, first, end = self._toolpath.rests, chunk.first, chunk.first + len(chunk)
+        return {row - first for row in rests[bisect_left(rests, first) : bisect_left(rests, end)]}
 
     def _outlasting(self, row: int) -> list[Parallel]:
         """The functions that outlast the motion of the block in front of a row: the axes rest at its end."""
-        # Without any of them the axes rest there anyhow, and the block is planned.
         entries = [entry for entry in self._waits.parallel if entry.last + 1 == row]
         return [entry for entry in entries if self._least_seconds(entry.row) < entry.seconds]
 

@@ -16,7 +16,7 @@ from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import CURVE_WIDTH, NO_CURVE, Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -270,6 +270,7 @@ class Toolpath:
     Attributes:
         kind_before_chunk: Kind of the last row in front of the chunk that is written.
         rests: Rows before which the axes rest because nothing may be prepared beyond, in order; events say the others.
+        counts: Machine positions by column of axes that are counted otherwise from a row on, by its number; they stand.
         block_starts: Rows with which another block begins, in order, though perhaps of the same line: those of blocks
             that must be told apart, and of what follows on them.
     """
@@ -286,6 +287,7 @@ class Toolpath:
         self.contexts: list[Context] = []
         self.programs: list[str] = []
         self.rests: list[int] = []
+        self.counts: dict[int, dict[int, float]] = {}
         self.block_starts: list[int] = []
         self._is_apart = False
         self._context_numbers: dict[Context, int] = {}
@@ -310,6 +312,11 @@ class Toolpath:
     def rest(self, row: int | None = None) -> None:
         """The axes rest before a row of the chunk that is written; None for the next one."""
         self._note(self.rests, len(self.chunk) if row is None else row)
+
+    def recount(self, places: Mapping[int, float]) -> None:
+        """Axes, which rest before the next row, are at other machine positions from there on; nothing moves."""
+        self.rest()
+        self.counts.setdefault(len(self), {}).update(places)
 
     def _note(self, rows: list[int], row: int) -> None:
         """Note a row of the chunk that is written among rows that are in order."""
