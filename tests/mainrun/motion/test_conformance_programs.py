@@ -43,7 +43,6 @@ SIGNALS = frozenset({
 #: Cases without a plan to compare with: the event of the main run, or the row, that says so.
 OUTSIDE = {
     "action": "axes that are positioned beside the path",
-    "spindle_wait": "a spindle that is positioned beside the axes (G96.2)",
     "skip": "an input that comes on the way",
 }
 

@@ -9,7 +9,7 @@ from math import pi, sqrt
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING, Literal
 from polycnc.motion.kernels.columns import Form, PieceRecord
-from polycnc.motion.standing.beside import Awaits, Begins, Search, Turning
+from polycnc.motion.standing.beside import Awaits, Begins, Indexing, Search, Turning
 from polycnc.motion.standing.zero_mark import Mark, SpindleAngle, Turns
 from polycnc.toolpath import Kind
 from polycnc.toolpath.events import (
@@ -117,6 +117,7 @@ class Waits:
         self._turning: dict[int, Turning] = {}
         self.angles: dict[int, SpindleAngle] = {}
         self._before_thread: dict[int, float] = {}  # what rows that begin a thread wait for besides
+        self._indexing: dict[int, Indexing] = {}
         self._open: Turning | None = None  # the next cut waits for it
         self._looked = 0
         self._search, self._pockets = Search(machine.magazine), dict[int, int]()
@@ -376,13 +377,19 @@ class Waits:
         event = chunk.events[chunk.curve[row]]
         if isinstance(event, ToolSelection):
             self._select(chunk.first + row, event.tool)
-        if isinstance(event, BuilderCode):
+        if isinstance(event, BuilderCode) and event.index_s > 0.0:
+            work = self._indexing[event.spindle] = Indexing()
+            self._begin(chunk.first + row, work, event.index_s)
+        elif isinstance(event, BuilderCode):
             g_function = self.machine.g_functions.get(event.code)
             if g_function is not None and g_function.seconds > 0.0:
                 self.wait(chunk.first + row, "auxiliary_s", chunk.context[row], g_function.seconds)
         if isinstance(event, SpindleWait):
             self._lose(chunk.first + row, chunk.context[row])
-            self.wait(chunk.first + row, "spindle_s", chunk.context[row], event.seconds)
+            if event.spindle in self._indexing:
+                self.step(Awaits(chunk.first + row, self._indexing.pop(event.spindle), chunk.context[row]))
+            else:
+                self.wait(chunk.first + row, "spindle_s", chunk.context[row], event.seconds)
         if isinstance(event, Stroke) and event.delay:
             self.wait(chunk.first + row, "auxiliary_s", chunk.context[row], event.delay)
         if not isinstance(event, Auxiliary):
