@@ -463,6 +463,7 @@ class Toolpath:
         """What forgets all that comes from here on (for a snapshot). Chunks that were dropped meanwhile are back."""
         chunk, chunks, cut = self.chunk, self.chunks.copy(), self.chunk.memento()
         contexts, programs = len(self.contexts), len(self.programs)
+        starts, counts = len(self.block_starts), {row: {**places} for row, places in self.counts.items()}
         before = (
             self._rows_before, self._ways_before, self._last_end, self._last_context, self.kind_before_chunk
         )  # fmt: skip
@@ -471,7 +472,8 @@ class Toolpath:
             cut()
             self.chunk = chunk
             self.chunks[:] = chunks
-            del self.contexts[contexts:], self.programs[programs:]
+            del self.contexts[contexts:], self.programs[programs:], self.block_starts[starts:]
+            self.counts = counts
             while len(self._context_numbers) > contexts:
                 self._context_numbers.popitem()
             while len(self._program_numbers) > programs:
