@@ -38,6 +38,24 @@ def test_a_wrong_key_is_named_with_its_place(wrong: dict[str, Any], named: str) 
     assert named in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("wrong", "meant"),
+    [
+        ({"expekt": {}}, "; did you mean expect?"),
+        ({"parameters": {}}, "; parameters is a key of setup"),
+        ({"expect": {"moves": [{"code": 1}]}}, "; code is a key of expect.alarms"),
+        ({"expect": {"program": "O1"}}, "; program is a key of expect.moves, expect.alarms"),
+        ({"colour": "red"}, ""),
+    ],
+)
+def test_an_unknown_key_says_where_it_belongs(wrong: dict[str, Any], meant: str) -> None:
+    with pytest.raises(CaseError, match="unknown key") as caught:
+        parse_case({**SMALLEST, **wrong})
+    said = str(caught.value)
+    assert meant in said
+    assert bool(meant) == (";" in said)
+
+
 def test_a_missing_key_is_named() -> None:
     with pytest.raises(CaseError, match="program"):
         parse_case({"id": "a", "control": "fanuc-m"})

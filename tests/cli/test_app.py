@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from polycnc import __version__
-from polycnc.cli import app
+from polycnc.cli import commands
 from polycnc.cli.app import main
 from polycnc.cli.commands import COMMANDS
 from polycnc.language.bulk.compiled import LIBRARY as READING
@@ -70,8 +70,22 @@ def test_who_waits_for_plain_kernels_is_told_so(
     monkeypatch.setitem(vars(READING), "lack", None)
     monkeypatch.setitem(vars(PLANNING), "lack", lack)
     assert "kernels" not in console(*words, *program).err
-    monkeypatch.setattr(app, "SLOW_S", 0.0)
+    monkeypatch.setattr(commands, "SLOW_S", 0.0)
     assert console(*words, *program).err.count("kernels") == (lack != "chosen")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [(), ("--version",), *((command, "--help") for command in COMMANDS), ("machines",), ("features",)],
+    ids=" ".join,
+)
+def test_who_runs_no_program_is_told_nothing_of_kernels(
+    console: Console, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...]
+) -> None:
+    for library in (READING, PLANNING):
+        monkeypatch.setitem(vars(library), "lack", "missing")
+    monkeypatch.setattr(commands, "SLOW_S", 0.0)
+    assert "kernels" not in console(*words).err
 
 
 @pytest.mark.parametrize("command", COMMANDS)

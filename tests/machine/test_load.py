@@ -72,7 +72,7 @@ JOINT = '[[joint]]\naxis = "X"\ncarries = "tool"\ndirection = [1, 0, 0]\n'
 @pytest.mark.parametrize(
     ("text", "line", "column", "message"),
     [
-        (CHANNEL + "[axis.X]\nrapit = 3\n", 4, 1, "near-key"),
+        (CHANNEL + "[axis.X]\nrapit = 3\n", 4, 1, "unknown-key"),
         (CHANNEL + "[axis.X]\ncolour = 3\n", 4, 1, "unknown-key"),
         (CHANNEL + '[axis.X]\nrapid = "fast"\n', 4, 1, "needs-number"),
         (CHANNEL + "[axis.X]\nrapid = nan\n", 4, 1, "needs-number"),
@@ -125,6 +125,34 @@ def test_a_mistake_is_told_with_its_line(
         shown = error.text(lang)
         assert shown.startswith(place)
         assert not re.search(r"\{[a-z]+\}", shown.removeprefix(place))
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ('axes = ["X"]\n', "axes is a key of channel.NUMBER; did you mean axis?"),
+        (CHANNEL + '[axis.X]\nbase = "mill3"\n', "base is a key of the top level"),
+        ("rapit = 3\n", "rapid is a key of defaults.linear, defaults.rotary, axis.NAME"),
+        (CHANNEL + "[axis.X]\nrapit = 3\n", "did you mean rapid?"),
+        (
+            CHANNEL + "[magazine]\naxis = 3\n",
+            "axis is a key of spindle.NUMBER, joint; axis is a key of",
+        ),
+        (
+            CHANNEL + "[spindle.1]\ngears = [{ min_rpm = 0, max_rpm = 1, places = 3 }]\n",
+            "places is a key of magazine",
+        ),
+        (CHANNEL + "[axis.X]\ncolour = 3\n", ""),
+    ],
+)
+def test_an_unknown_key_says_where_it_belongs_and_never_what_was_typed(
+    write: Write, text: str, meant: str
+) -> None:
+    with pytest.raises(MachineFileError) as caught:
+        load_machine(write(text))
+    says = caught.value.text("en").partition("there is no such key here")[2]
+    assert says.startswith(f"; {meant}" if meant else "")
+    assert bool(says) == bool(meant)
 
 
 def test_a_mistake_in_the_base_names_the_base(write: Write) -> None:

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from polycnc.motion import Settings
-from polycnc.toolpath import Context
+from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.modes import CornerMode
 from tests.motion.paths import MILL4, Build, mill
 from tests.motion.test_jerk import runs
@@ -64,6 +64,22 @@ def test_a_rotary_axis_leaves_its_way_by_as_many_degrees_as_the_tolerance_has_mm
     places = run.at(np.linspace(0.0, run.seconds, 200_000))[0]
     off = np.abs(places[:, 3] - 1.5 * np.maximum(places[:, 0] - 20.0, 0.0))
     assert off.max() == pytest.approx(tolerance, rel=1e-3)
+
+
+@pytest.mark.parametrize("part", [0.0, 0.5, 0.8])
+@pytest.mark.parametrize("moved", [0, 1])
+def test_a_rotary_axis_with_a_tolerance_of_its_own_bends_by_what_a_moved_end_leaves_of_it(
+    part: float, moved: int
+) -> None:
+    """A function that leads axes beside their ends has used a part of the tolerance before or behind the corner."""
+    context = Context(corner_mode=CornerMode.ROUNDED, tolerance_mm=1.0, turn_tolerance_deg=0.05)
+    rows = Build(MILL4_AXES, context)
+    for k, end in enumerate(((20.0, 0.0, 0.0, 0.0), (40.0, 0.0, 0.0, 30.0))):
+        rows.row(Kind.FEED, *end, curve=(0.0,) * 7 + (part if k == moved else 0.0,))
+    (run,) = runs(rows, MILL4, Settings(rotary_in_feed=False))[1]
+    places = run.at(np.linspace(0.0, run.seconds, 200_000))[0]
+    off = places[:, 3] - 1.5 * np.maximum(places[:, 0] - 20.0, 0.0)
+    assert off.max() == pytest.approx((1.0 - part) * 0.05, rel=1e-3)
 
 
 def test_no_more_than_half_of_a_line_is_bent() -> None:

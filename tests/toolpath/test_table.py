@@ -7,7 +7,7 @@ from itertools import groupby
 
 import pytest
 
-from polycnc.toolpath import Kind
+from polycnc.toolpath import Kind, Toolpath
 from polycnc.toolpath.events import Auxiliary, Message
 from polycnc.toolpath.table import CHUNK_ROWS, FEW_ROWS, Chunk
 from tests.toolpath.paths import Z_UP, Draft
@@ -48,3 +48,14 @@ def test_chunks_are_joined_until_one_is_full() -> None:
         draft.move(Kind.FEED, 1, 2, 3)
     assert [len(chunk) for chunk in draft.toolpath.join_chunks(0)] == [CHUNK_ROWS + 2] * 2
     assert [chunk.first for chunk in draft.toolpath.chunks] == [0, CHUNK_ROWS + 2, 2 * CHUNK_ROWS + 4]
+
+
+def test_what_is_taken_back_counts_no_axis_otherwise_and_begins_no_block() -> None:
+    toolpath = Toolpath(("X", "Z"))
+    toolpath.recount({0: 5.0})
+    back = toolpath.memento()
+    toolpath.recount({1: 7.0})
+    toolpath.set_block_apart(0)
+    assert (toolpath.counts, toolpath.block_starts) == ({0: {0: 5.0, 1: 7.0}}, [0])
+    back()
+    assert (toolpath.counts, toolpath.block_starts) == ({0: {0: 5.0}}, [])

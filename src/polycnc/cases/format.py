@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
+from polycnc.machine.schema import meant
+from polycnc.machine.setup.file import TABLES
 from polycnc.messages import text
 from polycnc.messages.catalogue import listed
 
@@ -181,7 +183,8 @@ def _without_empty(data: dict[object, object]) -> dict[str, object]:
 def _explain(error: ErrorDetails) -> str:
     where = _dotted(error["loc"])
     if error["type"] == "extra_forbidden":
-        return text("case.unknown-key", name=where)
+        setup = {f"setup.{place}".rstrip("."): keys for place, keys in TABLES.items()}
+        return text("case.unknown-key", where=where, **meant(error["loc"], Case, setup))
     if error["type"] == "missing":
         return text("case.missing-key", name=where)
     if error["type"] == "value_error":

@@ -28,7 +28,7 @@ from polycnc.channel.waits import (
     PreprocessingStop,
     Wait,
     Why,
-)
+)  # fmt: skip
 from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.typing import TYPE_CHECKING, ClassVar, Generic
@@ -36,7 +36,7 @@ from polycnc.geometry.tolerances import FARTHEST
 from polycnc.memory.retained import InMemoryStore
 from polycnc.messages import AlarmError
 from polycnc.toolpath import NO_CURVE, Context, Event, Kind, Toolpath
-from polycnc.toolpath.events import Stop
+from polycnc.toolpath.events import Auxiliary, Stop
 from polycnc.toolpath.table import CHUNK_ROWS, is_way
 
 with loaded_when_called():
@@ -328,10 +328,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         self.push(program, kind=LevelKind.MAIN)
         try:
             end_of(self, Lifetime.POWER if power_on else Lifetime.PROGRAM)
-            if power_on:
-                self.control.start(self)
-            else:
-                self.control.begin(self)
+            (self.control.start if power_on else self.control.begin)(self)
             self.stands_at = self.coordinates.machine
         except AlarmError as error:
             self.fail(error)
@@ -410,7 +407,7 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
                 self._wait = self._wait or Wait(Why.SINGLE_BLOCK, level.block_name())
             elif self.block_by_block:
                 self._wait = self._wait or BLOCK
-        self.mark = self.toolpath.mark()
+        self.mark = self.toolpath.end_block()
         if self.blocks >= self.block_limit:
             raise self.control.block_limit()
         if self.standstill is not None and self.blocks >= self.standstill.next_look:
@@ -585,6 +582,9 @@ class Channel(Generic[ControlT_co, MemoryT_co, ProgramT_co]):
         if self.path.head is None:
             end = self.coordinates.position
             self.toolpath.append_event(event, level.program_number, line, context, end)
+            if isinstance(event, Auxiliary) and self.machine.goes_beside(event.code):
+                self.toolpath.set_block_apart(self.mark)
+                self.attention = True
         else:
             self.path.head.event(PlacedEvent(event, level.program_number, line, context))
 

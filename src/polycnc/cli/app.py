@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-from time import monotonic
 
 from polycnc.cli import plain
 from polycnc.cli.console import fail, note
@@ -24,8 +23,6 @@ else:
     import _signal as signal  # what the library's own module makes enumerations of, at every start
 
 BAD_USE, INTERRUPTED = 2, 130
-#: Who waits for a command as long as this is told what makes it slow, seconds.
-SLOW_S = 2.0
 #: With this variable of the environment a mistake of polycnc shows all of its way.
 TRACEBACK = "POLYCNC_TRACEBACK"
 #: Libraries that polycnc can do without, and the extra that brings each.
@@ -83,11 +80,8 @@ def _run(words: list[str]) -> int:
             _say_if_unknown()
         asked = plain.read(words)
         with watched(" ".join(["polycnc", *words[:1]])):
-            began = monotonic()
             status = asked() if asked is not None else _run_by_click(words)
             sys.stdout.flush()
-        if monotonic() - began >= SLOW_S:
-            _say_if_plain()
     except Exception as error:  # noqa: BLE001 - `_told` says what it was
         return fail(_told(error), BAD_USE)
     return status if isinstance(status, int) else 0
@@ -99,17 +93,6 @@ def _say_if_unknown() -> None:
 
     if os.environ[CHOICE] not in ("", PLAIN):
         note(f"polycnc: {text('cli.kernels.unknown', name=CHOICE, value=os.environ[CHOICE], known=PLAIN)}")
-
-
-def _say_if_plain() -> None:
-    """A note behind a long command where this installation has no compiled kernels, and nobody has chosen so."""
-    from polycnc.kernels.native import Lack
-    from polycnc.language.bulk.compiled import LIBRARY as READING
-    from polycnc.motion.compiled import LIBRARY as PLANNING
-
-    lack = READING.lack or PLANNING.lack
-    if lack in (Lack.MISSING, Lack.STALE):
-        note(f"polycnc: {text(f'cli.kernels.{lack}')}")
 
 
 def _run_by_click(words: list[str]) -> object:

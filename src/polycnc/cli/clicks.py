@@ -16,7 +16,7 @@ from click.core import ParameterSource
 from click.shell_completion import CompletionItem, shell_complete
 
 from polycnc.cli import completion, options
-from polycnc.cli.commands import COMMANDS, commands_of
+from polycnc.cli.commands import COMMANDS, call, commands_of
 from polycnc.cli.console import say
 from polycnc.cli.declaration import REQUIRED, Argument, Command, Path, without_none
 from polycnc.cli.plain import COMPLETION
@@ -95,7 +95,9 @@ def _command(command: Command, name: str) -> click.Command:
     def called(context: click.Context, /, **values: Any) -> int | None:
         said = ParameterSource.COMMANDLINE
         given = {name: value for name, value in values.items() if context.get_parameter_source(name) is said}
-        return command({name: [*value] if _is_list(kinds[name]) else value for name, value in given.items()})
+        return call(
+            command, {name: [*value] if _is_list(kinds[name]) else value for name, value in given.items()}
+        )
 
     parameters = [*map(_parameter, command.parameters), _help()]
     return click.Command(

@@ -119,12 +119,14 @@ class Command:
         function: What it does; gives an exit status, or None for 0.
         text: Id of the text at the head of its page of help.
         name: Its name within a group.
+        runs: The parameter that names the programs which it reads and plans; empty where it does not.
     """
 
-    def __init__(self, function: Function, text: str = "", name: str = "") -> None:
+    def __init__(self, function: Function, text: str = "", name: str = "", runs: str = "") -> None:
         self._function = function
         self.text = text
         self.name = name
+        self.runs = runs
 
     def __call__(self, given: Mapping[str, object]) -> int | None:
         """Call the function with these values by the names of parameters, and with its defaults for the others."""
@@ -186,11 +188,14 @@ class Commands:
         self.alone = alone
         self.members: list[Command] = []
 
-    def command(self, text: str, name: str = "") -> Callable[[Function], Function]:
-        """Declare a command: the id of its text on the page of help, and its name where that is not the function's."""
+    def command(self, text: str, name: str = "", runs: str = "") -> Callable[[Function], Function]:
+        """Declare a command: the id of its text on the page of help, and its name where that is not the function's.
+
+        `runs` is the parameter with its programs (`Command`).
+        """
 
         def declared(function: Function) -> Function:
-            self.members.append(Command(function, text, name or function.__name__))
+            self.members.append(Command(function, text, name or function.__name__, runs))
             return function
 
         return declared

@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 from types import GenericAlias
 
-from polycnc.cli.commands import COMMANDS, commands_of
+from polycnc.cli.commands import COMMANDS, call, commands_of
 from polycnc.cli.declaration import REQUIRED, Argument, Path, without_none
 from polycnc.deferred.typing import TYPE_CHECKING, Any
 
@@ -39,7 +39,7 @@ def read(words: Sequence[str]) -> Callable[[], int | None] | None:
         given = _given(command, iter(words[1:]))
     except _NotPlainError:
         return None
-    return lambda: command(given)
+    return lambda: call(command, given)
 
 
 def _given(command: Command, words: Iterator[str]) -> dict[str, object]:

@@ -1,6 +1,7 @@
 """`contextmanager` and its likes as those of `contextlib`, without the classes that the library makes for every start.
 
-What nothing here uses is left out: context managers as decorators, those of coroutines, and of an `ExitStack` all but
+With the library's the installed command takes 5 % more instructions for a short run (`python -m` loads it anyhow). What
+nothing here uses is left out: context managers as decorators, those of coroutines, and of an `ExitStack` all but
 `enter_context` and `callback`.
 """
 

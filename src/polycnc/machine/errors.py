@@ -7,9 +7,10 @@ from functools import cache
 from polycnc.deferred.paths import package_path
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import Catalogue, UserError
+from polycnc.messages.catalogue import listed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Collection, Iterable, Mapping
 
 
 @cache
@@ -18,8 +19,23 @@ def catalogue() -> Catalogue:
     return Catalogue(package_path("machine", "messages.toml"))
 
 
-def nearest(key: str, known: Iterable[str]) -> str:
-    """The known key that a mistyped one was probably meant to be, or an empty text."""
+def meant_by(key: str, here: Collection[str], levels: Mapping[str, Collection[str]]) -> dict[str, str]:
+    """What an unknown key was probably meant to be: values for the placeholders of the text `unknown-key`.
+
+    Args:
+        key: As it was typed.
+        here: The keys of the table that it stands in.
+        levels: The keys of all tables of such a file by their places; empty for the top level.
+    """
+    near, known = _nearest(key, here), set().union(*levels.values())
+    name = key if key in known or near else _nearest(key, known)
+    places = listed(place for place, keys in levels.items() if place and name in keys)
+    top = name if name and name in levels.get("", ()) else ""
+    return {"near": near, "name": name, "places": places, "top": top}
+
+
+def _nearest(key: str, known: Iterable[str]) -> str:
+    """The known key that is nearest to a mistyped one, or an empty text."""
     from difflib import get_close_matches
 
     return next(iter(get_close_matches(key, sorted(known), 1, 0.7)), "")

@@ -312,6 +312,11 @@ class Machine:
         """The joints that carry the work, from the base outwards."""
         return tuple(joint for joint in self.joints if joint.carries == "work")
 
+    def goes_beside(self, code: int) -> bool:
+        """Whether an M function takes time, and takes it beside the motion of its block."""
+        function = self.m_functions.get(code)
+        return function is not None and function.timing == "with" and function.seconds > 0.0
+
     def channel(self, number: int) -> Channel:
         """A channel by its number; raises `KeyError` where there is none."""
         for channel in self.channels:

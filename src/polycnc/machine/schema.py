@@ -8,15 +8,16 @@ takes longer than a short program runs, and the shipped files are held to this s
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, ValidationError
 
-from polycnc.machine.errors import nearest
+from polycnc.machine.errors import meant_by
 from polycnc.machine.tables import Act, Pockets, SpeedWait, Turns
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator, Mapping, Sequence
 
     from pydantic_core import ErrorDetails
 
@@ -265,6 +266,8 @@ _MESSAGES = (
 _LIMITS = {"gt": ">", "ge": "≥", "lt": "<", "le": "≤", "min_length": "≥", "max_length": "≤"}
 #: Longest piece of a wrong value that a message repeats.
 _SHOWN = 40
+#: What stands in a place for any name, and for any number.
+NAME, NUMBER = "NAME", "NUMBER"
 Mistake = tuple[tuple["Key", ...], str, dict[str, object]]
 
 
@@ -274,24 +277,71 @@ def mistakes(data: dict[str, Any], table: type[BaseModel] = MachineTable) -> Ite
         table.model_validate(data)
     except ValidationError as error:
         for found in error.errors(include_url=False):
-            yield _mistake(found)
+            yield _mistake(found, table)
 
 
-def _mistake(found: ErrorDetails) -> Mistake:
+def _mistake(found: ErrorDetails, table: type[BaseModel]) -> Mistake:
     path = tuple(part for part in found["loc"] if part != "[key]")
     kind = found["type"]
     message = next((text for start, text in _MESSAGES if kind.startswith(start)), "bad-value")
     about: dict[str, object] = {"where": ".".join(map(str, path)), "value": _short(found["input"])}
     limits = found.get("ctx", {})
     if message == "unknown-key":
-        about["near"] = nearest(str(path[-1]), set().union(*field_names().values()))
-        message = "near-key" if about["near"] else message
+        about |= meant(path, table)
     elif message == "not-one-of":
         about["expected"] = ", ".join(re.findall(r"'([^']*)'", limits["expected"]))
     else:
         signs = [f"{sign} {limits[name]}" for name, sign in _LIMITS.items() if name in limits]
         about["detail"] = ", ".join(signs) or found["msg"]
     return path, message, about
+
+
+def meant(
+    path: Sequence[Key], table: type[BaseModel], beside: Mapping[str, Collection[str]] = MappingProxyType({})
+) -> dict[str, str]:
+    """What the unknown key at the end of a path was probably meant to be (`errors.meant_by`).
+
+    Args:
+        path: Of the key.
+        table: What the file holds.
+        beside: Keys that it holds in places of which the schema does not say them.
+    """
+    levels = dict(_levels(table))
+    above = [str(part) for part in path[:-1] if not isinstance(part, int)]
+    here = next((keys for place, keys in levels.items() if _is_at(place, above)), ())
+    known = {".".join(place): keys for place, keys in levels.items()}
+    return meant_by(str(path[-1]), here, {**known, **beside})
+
+
+def _levels(
+    table: type[BaseModel], above: tuple[str, ...] = ()
+) -> Iterator[tuple[tuple[str, ...], set[str]]]:
+    """The places of a table and of all tables within it, and their keys."""
+    fields = {field.alias or name: field for name, field in table.model_fields.items()}
+    yield above, set(fields)
+    for name, field in fields.items():
+        for own, inner in _tables_in(field.annotation):
+            yield from _levels(inner, (*above, name, *own))
+
+
+def _tables_in(kind: Any) -> Iterator[tuple[tuple[str, ...], type[BaseModel]]]:
+    """The tables that a value of a type holds, behind the key that each has there."""
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        yield (), kind
+    elif get_origin(kind) is dict:
+        key, value = get_args(kind)
+        label = NAME if key == Name else NUMBER
+        yield from (((label, *own), table) for own, table in _tables_in(value))
+    else:
+        for part in get_args(kind):
+            yield from _tables_in(part)
+
+
+def _is_at(place: tuple[str, ...], path: Sequence[str]) -> bool:
+    """Whether a path leads to a place, where names and numbers stand for any."""
+    return len(place) == len(path) and all(
+        own in (name, NAME, NUMBER) for own, name in zip(place, path, strict=True)
+    )
 
 
 def field_names() -> dict[str, set[str]]:

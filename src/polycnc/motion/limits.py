@@ -185,6 +185,7 @@ def context_fields(
         context.degree_mm,
         averages[0] > 0.0 and not after and is_bent_by_way(context, settings),
         context.chords,
+        min(context.pace.velocity, default=1.0) if context.pace is not None else 1.0,
         *(a, b, c, d, e, f, g, h, i),
         *context.frame.t,
         *(context.offsets or [0.0] * axes),

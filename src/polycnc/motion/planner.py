@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from polycnc.motion.limits import AxisRapid
     from polycnc.motion.pole import PathLeg, Turn
     from polycnc.motion.standing.beside import Step
+    from polycnc.motion.standing.waits import Parallel
     from polycnc.motion.third_order.laying.leading import LawRuns
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
@@ -110,17 +111,15 @@ class Planner:
         self._waited: dict[int, dict[str, float]] = {}
         self._rows = array("d")
         self._row_waits: dict[int, float] = {}
-        self._first_row = 0
-        self._next_row = 0
-        self._waits = Waits(machine, toolpath.contexts, tool, self._wait)
+        self._first_row = self._next_row = 0
+        self._waits = Waits(machine, toolpath, tool, self._wait)
         self._waits.rapid_stops, self._waits.spindle_wait = settings.rapid_stops, settings.spindle_wait
         self._waits.step, self._beside = self._step, Beside(self._lag_of, self._settle_parallel)
         self._final_row = 0  # rows before it are planned
         self.is_turning = False
         self._rests: set[int] = set()
-        self._come_to_rest: dict[int, float] = {}  # by row: averages of a run that a function outlasts
-        # The row that has waited last for a function beside the block in front, seconds.
-        self._outlasted = -1, 0.0
+        self._come_to_rest: dict[int, float] = {}  # by row of a function: averages that it outlasts
+        self._outlasted = -1, 0.0  # the last row that has waited for a function beside a block, seconds
         self._runs: LawRuns | None = None  # until a context asks for it
         self._rapid_context: Context | None = None  # whose rapids were looked at last
         self._rapids_are_soft = False
@@ -216,12 +215,14 @@ class Planner:
         for edge in (*sorted({*bounds.enters, *bounds.legs, *switches, *rests, *beside}), len(chunk)):
             self._lay(Rows(chunk.kind[:edge], *others), row, curves, chunk.first)
             row = edge
-            outlasted = edge in beside and self._is_outlasted(chunk.first + edge)
-            if outlasted or edge in rests:
+            outlasting = self._outlasting(chunk.first + edge) if edge in beside else []
+            if outlasting or edge in rests:
                 self._rest()
                 self._state.run.overlap = self._state.run.rapid_overlap = 0.0
-            if outlasted:
-                self._come_to_rest[chunk.first + edge] = self._averages(chunk.first + edge)
+            for column, place in self._toolpath.counts.get(chunk.first + edge, {}).items():
+                self._state.position[column] = place
+            for entry in outlasting:
+                self._come_to_rest[entry.row] = self._averages(entry)
             if edge in switches:
                 self._switch(switches[edge], self._toolpath.contexts[chunk.context[edge]])
             if edge in bounds.enters:
@@ -235,28 +236,31 @@ class Planner:
 
     def _rests_of(self, chunk: Chunk) -> set[int]:
         """Rows of a chunk before which the axes rest because nothing was prepared beyond."""
-        rests, first = self._toolpath.rests, chunk.first
-        ahead = rests[bisect_left(rests, first) : bisect_left(rests, first + len(chunk))]
-        return {row - first for row in ahead}
+        rests, first, end = self._toolpath.rests, chunk.first, chunk.first + len(chunk)
+        return {row - first for row in rests[bisect_left(rests, first) : bisect_left(rests, end)]}
 
-    def _is_outlasted(self, row: int) -> bool:
-        """Whether a function beside the block in front of a row outlasts its motion: the axes rest at its end."""
+    def _outlasting(self, row: int) -> list[Parallel]:
+        """The functions that outlast the motion of the block in front of a row: the axes rest at its end."""
         entries = [entry for entry in self._waits.parallel if entry.last + 1 == row]
-        if not entries:  # the axes rest there anyhow, and the block is planned
-            return False
-        seconds, begins = max(entry.seconds for entry in entries), min(entry.row for entry in entries)
-        if self._runs is not None and self._runs.is_open:
-            return self._runs.least_seconds(begins) < seconds
-        first = self._piece_of(begins)
-        return least_seconds(self._pieces, first, self._state.run.pieces, self._width) < seconds
+        return [entry for entry in entries if self._least_seconds(entry.row) < entry.seconds]
 
-    def _averages(self, row: int) -> float:
-        """Seconds in which the averages come to rest in front of a row, where a block before the last one has them."""
-        begins = [entry.row for entry in self._waits.parallel if entry.last + 1 == row]
-        if not begins:  # a law has led the block, which is planned: nothing was averaged
+    def _least_seconds(self, row: int) -> float:
+        """The least time of all that is laid from a row on."""
+        if self._runs is not None and self._runs.is_open:
+            return self._runs.least_seconds(row)
+        return least_seconds(self._pieces, self._piece_of(row), self._state.run.pieces, self._width)
+
+    def _averages(self, entry: Parallel) -> float:
+        """Seconds in which the averages of a run come to rest beside a function whose block does not begin the run.
+
+        The seconds of the row that begins it hold them.
+        """
+        first, pieces = self._piece_of(entry.row), self._state.run.pieces
+        if (
+            entry not in self._waits.parallel or first == pieces
+        ):  # a law has led it, and it is planned; or no motion
             return 0.0
-        first = self._piece_of(min(begins))
-        for piece in reversed(range(self._state.run.pieces)):
+        for piece in reversed(range(pieces)):
             at = piece * self._width
             pause = self._pieces[at + PieceRecord.PAUSE]
             if pause > 0.0 or self._pieces[at + PieceRecord.ENTRY2] == 0.0:  # here its run begins
@@ -556,12 +560,13 @@ class Planner:
             if behind > planned_rows:
                 open_yet.append(entry)
                 continue
-            waited = self._outlasted[1] if self._outlasted[0] == behind else 0.0
-            motion = self._seconds(entry.row, behind) + self._come_to_rest.get(behind, 0.0)
-            # What its block waits for, such as a change of the tool, is over when the function begins.
-            left = entry.seconds - motion + self._row_waits.get(entry.row, 0.0) - waited
+            before = self._outlasted[1] if self._outlasted[0] == behind else 0.0
+            counted = before if behind >= self._next_row > entry.row + 1 else 0.0  # for the last row
+            # What its own row waits for comes in front of it.
+            motion = self._seconds(entry.row + 1, behind) - counted + self._come_to_rest.get(entry.row, 0.0)
+            left = entry.seconds - motion - before
             if left > 0.0:
-                self._outlasted = behind, left + waited
+                self._outlasted = behind, left + before
                 self._wait(behind, "auxiliary_s", entry.context, left)
                 self._beside.stand(behind, left)
         self._waits.parallel[:] = open_yet

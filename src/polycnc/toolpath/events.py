@@ -38,11 +38,22 @@ class Auxiliary(Event):
 
 @dataclass(frozen=True, slots=True)
 class BuilderCode(Event):
-    """A G code of the machine's builder that calls no program."""
+    """A G code of the machine's builder that calls no program.
+
+    Attributes:
+        spindle: Whom it turns to an angle beside what follows, and `index_s`: how long that takes, s; 0 for none.
+    """
 
     type: ClassVar[str] = "g"
     code: str
     words: Mapping[str, float] | None = None
+    spindle: int = 0
+    index_s: float = 0.0
+
+    @property
+    def data(self) -> dict[str, object]:
+        """Code and words."""
+        return {"code": self.code} if self.words is None else {"code": self.code, "words": self.words}
 
 
 @dataclass(frozen=True, slots=True)

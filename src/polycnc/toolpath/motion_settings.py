@@ -69,8 +69,8 @@ class MotionSettings:
     """What the planner asks of a control's parameters.
 
     Attributes:
-        bends_by_way: With limited jerk a run of cuts that are planned ahead is bent by its way, and a law of third order
-            leads along it; what else is planned is averaged over time, as bell-shaped acceleration is.
+        bends_by_way: With limited jerk a run of cuts that are planned ahead is bent by its way, and a law of third
+            order leads along it; what else is planned is averaged over time, as bell-shaped acceleration is.
         rapid_by_axis: On a rapid every axis runs alone at its own speed (FANUC 1401#1 LRP = 0, SYNTEC Pr411 =
             1); else all arrive together on a line. A context can ask for it too (SINUMERIK `RTLIOF`).
         rapid_stops: The axes come to rest before and after every rapid (in-position check).

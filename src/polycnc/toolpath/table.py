@@ -16,7 +16,7 @@ from polycnc.geometry.tolerances import NO_WAY
 from polycnc.toolpath.kinds import CURVE_WIDTH, NO_CURVE, Kind
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -270,6 +270,9 @@ class Toolpath:
     Attributes:
         kind_before_chunk: Kind of the last row in front of the chunk that is written.
         rests: Rows before which the axes rest because nothing may be prepared beyond, in order; events say the others.
+        counts: Machine positions by column of axes that are counted otherwise from a row on, by its number; they stand.
+        block_starts: Rows with which another block begins, in order, though perhaps of the same line: those of blocks
+            that must be told apart, and of what follows on them.
     """
 
     def __init__(
@@ -284,6 +287,9 @@ class Toolpath:
         self.contexts: list[Context] = []
         self.programs: list[str] = []
         self.rests: list[int] = []
+        self.counts: dict[int, dict[int, float]] = {}
+        self.block_starts: list[int] = []
+        self._is_apart = False
         self._context_numbers: dict[Context, int] = {}
         self._program_numbers: dict[str, int] = {}
         self._chunk_rows = chunk_rows
@@ -305,9 +311,33 @@ class Toolpath:
 
     def rest(self, row: int | None = None) -> None:
         """The axes rest before a row of the chunk that is written; None for the next one."""
-        number = self._rows_before + (len(self.chunk) if row is None else row)
-        if not self.rests or self.rests[-1] < number:
-            self.rests.append(number)
+        self._note(self.rests, len(self.chunk) if row is None else row)
+
+    def recount(self, places: Mapping[int, float]) -> None:
+        """Axes, which rest before the next row, are at other machine positions from there on; nothing moves."""
+        self.rest()
+        self.counts.setdefault(len(self), {}).update(places)
+
+    def _note(self, rows: list[int], row: int) -> None:
+        """Note a row of the chunk that is written among rows that are in order."""
+        number = self._rows_before + row
+        while rows and rows[-1] > number:  # of a block that was taken back
+            rows.pop()
+        if not rows or rows[-1] < number:
+            rows.append(number)
+
+    def set_block_apart(self, row: int) -> None:
+        """The block that runs, which begins with a row of the chunk, is told apart from those of the same line."""
+        self._note(self.block_starts, row)
+        self._is_apart = True
+
+    def end_block(self) -> int:
+        """The block that runs is over; gives the number of rows of the chunk that is written."""
+        rows = len(self.chunk.kind)
+        if self._is_apart:
+            self._note(self.block_starts, rows)
+            self._is_apart = False
+        return rows
 
     def context_number(self, context: Context) -> int:
         """The number of a context; a new one is added."""
@@ -433,6 +463,7 @@ class Toolpath:
         """What forgets all that comes from here on (for a snapshot). Chunks that were dropped meanwhile are back."""
         chunk, chunks, cut = self.chunk, self.chunks.copy(), self.chunk.memento()
         contexts, programs = len(self.contexts), len(self.programs)
+        starts, counts = len(self.block_starts), {row: {**places} for row, places in self.counts.items()}
         before = (
             self._rows_before, self._ways_before, self._last_end, self._last_context, self.kind_before_chunk
         )  # fmt: skip
@@ -441,7 +472,8 @@ class Toolpath:
             cut()
             self.chunk = chunk
             self.chunks[:] = chunks
-            del self.contexts[contexts:], self.programs[programs:]
+            del self.contexts[contexts:], self.programs[programs:], self.block_starts[starts:]
+            self.counts = counts
             while len(self._context_numbers) > contexts:
                 self._context_numbers.popitem()
             while len(self._program_numbers) > programs:

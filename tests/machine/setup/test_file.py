@@ -186,14 +186,14 @@ def test_single_block_can_be_a_plain_switch(given_as: object, mode: str) -> None
 @pytest.mark.parametrize(
     ("text", "line", "key", "message"),
     [
-        ("machin: mill3\n", 1, "machin", "near-key"),
+        ("machin: mill3\n", 1, "machin", "unknown-key"),
         ("colour: red\n", 1, "colour", "unknown-key"),
         ("start:\n  X: a\n", 2, "start.X", "needs-number"),
         ("start: {X: .nan}\n", 1, "start.X", "needs-number"),
         ("start: {X: true}\n", 1, "start.X", "needs-number"),
         ("start: [1]\n", 1, "start", "needs-table"),
         ("work_offsets:\n  G54: 3\n", 2, "work_offsets.G54", "needs-table"),
-        ("tools:\n  1: {lenght: 3}\n", 2, "tools.1.lenght", "near-key"),
+        ("tools:\n  1: {lenght: 3}\n", 2, "tools.1.lenght", "unknown-key"),
         ("tools:\n  1:\n    wear: {tip: 3}\n", 3, "tools.1.wear.tip", "unknown-key"),
         ("tools: {1: {tip: 2.5}}\n", 1, "tools.1.tip", "needs-whole-number"),
         ("tools: {1: {edges: {a: {}}}}\n", 1, "tools.1.edges.a", "needs-whole-number"),
@@ -233,6 +233,25 @@ def test_a_mistake_names_its_line_and_key(
     assert caught.value.text().startswith("my-case: ")
 
 
+@pytest.mark.parametrize(
+    ("data", "meant"),
+    [
+        ({"machin": "mill3"}, "; did you mean machine?"),
+        ({"single_block": True}, "; single_block is a key of switches"),
+        ({"tools": {1: {"machine": "mill3"}}}, "; machine is a key of the top level"),
+        (
+            {"tools": {1: {"wear": {"tip": 3}}}},
+            "; tip is a key of tools.TOOL, tools.TOOL.edges.NUMBER, switches.skip_surfaces",
+        ),
+        ({"colour": "red"}, ""),
+    ],
+)
+def test_an_unknown_key_says_where_it_belongs(data: dict[str, object], meant: str) -> None:
+    with pytest.raises(SetupError) as caught:
+        parse_setup(data)
+    assert caught.value.text("en").partition("there is no such key here")[2] == meant
+
+
 def test_a_toml_setup_is_the_same_as_a_yaml_setup(tmp_path: Path) -> None:
     toml, yml = tmp_path / "setup.toml", tmp_path / "setup.yaml"
     toml.write_text(
@@ -245,7 +264,7 @@ def test_a_toml_setup_is_the_same_as_a_yaml_setup(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "text", "line", "message"),
     [
-        ("setup.toml", "[tools.1]\nlenght = 3\n", 2, "near-key"),
+        ("setup.toml", "[tools.1]\nlenght = 3\n", 2, "unknown-key"),
         ("setup.toml", "[tools.1\n", 1, "not-toml"),
         ("setup.yaml", "a: 1\nb: [\n", 3, "not-yaml"),
         ("absent.yaml", None, 0, "unreadable"),

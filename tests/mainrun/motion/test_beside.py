@@ -119,6 +119,23 @@ def test_plan_samples_and_main_run_wait_alike(tmp_path: Path, control: str) -> N
     assert len(waited) == 6
 
 
+@pytest.mark.parametrize(("feed", "waits"), [(2000, True), (200, False)])
+def test_so_they_do_for_a_spindle_that_turns_to_an_angle(tmp_path: Path, feed: int, waits: bool) -> None:
+    """G96.3 waits for what is left of the way that G96.2 has begun; G96.1 begins a new one."""
+    file = tmp_path / "slow.toml"
+    file.write_text('base = "lathe2"\n[spindle.1]\norient_s = 1\n')
+    cut = f"G1 X80. F{feed}\n"
+    beside = f"O1\nG98 G0 X100. Z10.\nG96.2 P1 R90.\n{cut}G96.3 P1\nG1 X70.\nM30\n"
+    total, standing, end = planned(beside, "fanuc-0i-tf", str(file))
+    assert end == pytest.approx(total, abs=1e-6)
+    assert executed(beside, "fanuc-0i-tf", str(file)) == pytest.approx(total, abs=0.001)
+    assert 0.0 < standing < 0.8 if waits else standing == 0.0
+    again = beside.replace("G96.3 P1", "G96.1 P1 R0")
+    total, standing, _ = planned(again, "fanuc-0i-tf", str(file))
+    assert standing == pytest.approx(1.0)
+    assert executed(again, "fanuc-0i-tf", str(file)) == pytest.approx(total, abs=0.001)
+
+
 #: Cuts at constant surface speed with rapids between them to other radii.
 TURNED = {
     "fanuc-0i-tf": "O1\nG99 G97 S300 M3\nG0 X120. Z5.\nG96 S180\nG1 Z-10. F0.2\nG0 X20.\nZ2.\nG1 Z-5.\nX40.\n"

@@ -42,8 +42,7 @@ SIGNALS = frozenset({
 })  # fmt: skip
 #: Cases without a plan to compare with: the event of the main run, or the row, that says so.
 OUTSIDE = {
-    "action": "axes that are positioned beside the path, and axes whose count changes (PRESETON, AXCTSWAP)",
-    "spindle_wait": "a spindle that is positioned beside the axes (G96.2)",
+    "action": "axes that are positioned beside the path",
     "skip": "an input that comes on the way",
 }
 

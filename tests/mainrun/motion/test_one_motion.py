@@ -42,8 +42,9 @@ DRAWN, IN_A_TEST, EXPLORE, BACK, LIMITED = 2000, 50, 20_000, 30, 16
 #: exceeded what TRACYL, TRAANG and ACC leave them; the main run went on by averages where a spline turns back on a line
 #: under SOFT.
 FOUND = (341917, 487807, 535447, 975837, 998267, 294, 674, 705, 1895, 3265, 1310, 203865)
-#: Programs without a transformation in which an axis exceeded what JERKLIM leaves it, on rows that do not move it.
-LIMITED_FOUND = (47, 67)
+#: Programs without a transformation in which an axis exceeded what JERKLIM leaves it, on rows that do not move it, and
+#: with one in which it exceeded what VELOLIM does, where a chord of a curve moves it faster than its ends say.
+LIMITED_FOUND = {limited.LimitedMill: (47, 67), limited.LimitedVectors: (33,)}
 #: Parameters that leave axes less than the machine: at corners, on short lines and arcs, by time constants.
 PARAMETERS: dict[str, tuple[dict[str, object], ...]] = {
     "fanuc-m": (
@@ -154,7 +155,7 @@ def test_so_they_are_where_parameters_bound_cuts_that_are_planned_ahead(control:
 def test_so_they_are_where_a_program_limits_the_axes_of_the_machine(
     kind: type[limited.Limited],
 ) -> None:
-    for seed in (*range(LIMITED), *(LIMITED_FOUND if kind is limited.LimitedMill else ())):
+    for seed in (*range(LIMITED), *LIMITED_FOUND.get(kind, ())):
         check(kind(Random(seed), "sinumerik-840d"))
 
 

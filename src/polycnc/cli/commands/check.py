@@ -44,7 +44,7 @@ class Format(StrEnum):
     JUNIT = "junit"
 
 
-@commands.command("help.check")
+@commands.command("help.check", runs="files")
 def check(
     files: Annotated[list[str], Argument("help.check.files", metavar="FILE…")],
     form: Annotated[Format, Option("help.option.format", "--format")] = Format.TEXT,

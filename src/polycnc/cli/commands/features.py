@@ -29,7 +29,7 @@ class Format(StrEnum):
     MARKDOWN = "markdown"
 
 
-@commands.command("help.features")
+@commands.command("help.features", runs="cases")
 def features(
     control: options.Control = None,
     cases: Annotated[Path | None, Option("help.features.from", "--from", metavar="DIR")] = None,

@@ -33,7 +33,7 @@ def _no_number(value: float) -> str:
     return "nan is not in the range 0.01<=x<=1000.0." if value != value else ""
 
 
-@commands.command("help.panel")
+@commands.command("help.panel", runs="file")
 def panel(
     file: Annotated[Path | None, Argument("help.panel.file", metavar="FILE")] = None,
     control: Annotated[list[str] | None, Option("help.option.control", "--control", metavar="ID")] = None,

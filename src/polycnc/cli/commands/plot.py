@@ -29,7 +29,7 @@ class ViewName(StrEnum):
     THREE = "three"
 
 
-@commands.command("help.plot")
+@commands.command("help.plot", runs="file")
 def plot(
     file: Annotated[Path, Argument("help.run.file", metavar="FILE")],
     output: Annotated[Path, Option("help.plot.output", "--output", "-o", metavar="X.svg|X.png")],

@@ -37,7 +37,7 @@ _SHORTEST_S = 1e-6
 _PERIOD = regex(r"(\d+\.?\d*|\.\d+)(us|ms|s|)", re.ASCII)
 
 
-@commands.command("help.run")
+@commands.command("help.run", runs="file")
 def run(
     file: Annotated[str, Argument("help.run.file", metavar="FILE")],
     trace: Annotated[Path | None, Option("help.run.trace", metavar="OUT.jsonl|csv|parquet")] = None,

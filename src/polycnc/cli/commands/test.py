@@ -30,7 +30,7 @@ class Format(StrEnum):
     JUNIT = "junit"
 
 
-@commands.command("help.test")
+@commands.command("help.test", runs="files")
 def run_tests(
     files: Annotated[list[Path], Argument("help.test.files", metavar="CASE.yaml…")],
     words: Annotated[str, Option("help.test.k", "-k", metavar="TEXT")] = "",

@@ -11,7 +11,7 @@ from polycnc.deferred.paths import suffix_of, text_of
 from polycnc.deferred.regexes import regex
 from polycnc.deferred.typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 from polycnc.machine.documents import DocumentError, toml_values, yaml_values
-from polycnc.machine.errors import SetupError, nearest
+from polycnc.machine.errors import SetupError, meant_by
 from polycnc.machine.places import Key, toml_place, yaml_place
 from polycnc.machine.setup.values import (
     Interrupt,
@@ -243,8 +243,8 @@ def _record(readers: Mapping[str, Reader], where: Where, value: object) -> dict[
     for key, element in _items(where, value):
         read = readers.get(str(key))
         if read is None:
-            near = nearest(str(key), readers)
-            raise _BadValueError((*where, key), "near-key" if near else "unknown-key", near=near)
+            meant = meant_by(str(key), readers, TABLES)
+            raise _BadValueError((*where, key), "unknown-key", **meant)
         record[str(key)] = read((*where, key), element)
     return record
 
@@ -429,7 +429,7 @@ def _surface(where: Where, value: object) -> Surface:
     _required(record, where, *needed)
     for key in ("direction", "radius", "inside"):
         if key in record and key not in needed and not (key == "inside" and "radius" in needed):
-            raise _BadValueError((*where, key), "unknown-key", near="")
+            raise _BadValueError((*where, key), "unknown-key")
     for key in ("at", "direction"):
         given: dict[str, float] = record.get(key, {})
         unknown = next((axis for axis in given if axis not in "XYZ"), None)
@@ -489,6 +489,18 @@ _SETUP: dict[str, Reader] = {
     "parameters": _parameters,
     "channels": _channels,
     "switches": _switches,
+}
+#: All tables with known keys by their places.
+TABLES: dict[str, dict[str, Reader]] = {
+    "": _SETUP,
+    "tools.TOOL": _TOOL,
+    "tools.TOOL.wear": _OFFSETS,
+    "tools.TOOL.geom2": _OFFSETS,
+    "tools.TOOL.edges.NUMBER": _TOOL,
+    "switches": _SWITCHES,
+    "switches.skip_surfaces": _SURFACE,
+    "switches.probe.NUMBER": _PROBE_EDGE,
+    "switches.interrupts": _INTERRUPT,
 }
 
 

@@ -87,7 +87,7 @@ class Execution:
         self.motion: Motion | None = None
         self._machinery, self._x2, self._cap2, self._rise = machinery, 0.0, inf, 1.0
         self._until, self._dwell_signal, self.stands_for = 0.0, "", ""
-        self._gated = self._waiting = self._blocked = self._moved_on = False
+        self._gated = self._waiting = self._stands = self._blocked = self._moved_on = False
         self.position, self._by_hand = list(position), tuple[float, ...]()
         self._skip_after_s, self._skips_at = skip_after_s, inf
         self._worked_until, self._asked, self._acted = -inf, 0, False
@@ -182,7 +182,7 @@ class Execution:
                 due = motion.rest
             rest = self._pieces.rest_time
             return rest if now < rest < due else due
-        if self._waiting and self._machinery.busy:
+        if (self._waiting and self._machinery.busy) or (self._stands and self._machinery.stands):
             return self._machinery.due
         return min(max(self._until, self.clock.time), self._machinery.due)
 
@@ -268,7 +268,7 @@ class Execution:
 
     def _go_on(self) -> bool:
         """Begin what comes next; false where nothing can begin now."""
-        self._waiting = False
+        self._waiting = self._stands = False
         if not self.running:
             return False
         if self.rates.stops and self._x2 == 0.0:
@@ -373,7 +373,7 @@ class Execution:
         else:
             self.context = item.context
             self._machinery.perform(item)
-            self._waiting = item.stands
+            self._stands = item.stands
             self._acted = self._acted or isinstance(item.event, Deed)
             self._awaits = item.event.awaits if isinstance(item.event, Deed) else None
             if self._machinery.busy:

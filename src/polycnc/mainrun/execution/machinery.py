@@ -101,11 +101,17 @@ class Machinery:
         self._clock = clock
         self._number, self._interlocks, self._observer = number, interlocks, observer
         self._running: dict[str, float] = {}
+        self._beside: set[str] = set()
 
     @property
     def busy(self) -> bool:
         """Whether functions are under way that the next block waits for."""
         return bool(self._running)
+
+    @property
+    def stands(self) -> bool:
+        """Whether the axes stand for one of them."""
+        return not self._running.keys() <= self._beside
 
     @property
     def is_open(self) -> bool:
@@ -166,6 +172,7 @@ class Machinery:
         word = word_of(event)
         if word and (self._is_locked(word) or self._interlocks.refuses(word)):
             return
+        (self._beside.discard if happening.stands else self._beside.add)(word)
         if isinstance(event, Auxiliary):
             self._begin(word, self._seconds(event, happening.context))
         elif isinstance(event, BuilderCode):
@@ -218,5 +225,6 @@ class Machinery:
     def reset(self) -> None:
         """Forget functions under way and messages."""
         self._running.clear()
+        self._beside.clear()
         self.messages.clear()
         self._signals.reset()

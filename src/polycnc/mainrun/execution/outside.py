@@ -31,6 +31,10 @@ class Machinery(Protocol):
         """Whether functions are under way that the next block waits for."""
 
     @property
+    def stands(self) -> bool:
+        """Whether the axes stand for one of them."""
+
+    @property
     def is_open(self) -> bool:
         """Whether nobody knows yet how long one of them takes."""
 

@@ -125,7 +125,7 @@ class Preprocessing:
         self._known_contexts = 0
         self._delays: dict[int, list[Delay]] = {}
         self._delayed = Delays(self.end_in_rest, self._lag)
-        self._waits = Waits(machine, self.toolpath.contexts, 0, self._delay)
+        self._waits = Waits(machine, self.toolpath, 0, self._delay)
         self._waits.step = self._note_step
         self._blocks = RunBlocks(self.items, self.toolpath.programs)
         self._geometry = machine.geometry_indices(number)

@@ -128,6 +128,7 @@ BOUNDS: Mapping[str, tuple[Cause, ...]] = {
     "ContextRecord.TURN_WEIGHT": _NONE,
     "ContextRecord.BY_WAY": _NONE,
     "ContextRecord.CHORDS": _NONE,
+    "ContextRecord.SPEED_LEFT": (Cause.PROGRAM_AXIS,),
     "ContextRecord.FRAME": _NONE,
     "ContextRecord.OFFSETS": _NONE,
     "Pace.feed": (Cause.FEED,),

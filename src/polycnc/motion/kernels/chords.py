@@ -74,7 +74,8 @@ def lay_chord(
         pieces[here + i] = pieces[here + n + i] = unit[i]
         pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0
     if state.run.smooth == 2.0:
-        cap2 = meet_chord(pieces, at, n, limits, state, length, weight, soft)
+        left = contexts[record + ContextRecord.SPEED_LEFT]
+        cap2 = meet_chord(pieces, at, n, limits, state, length, weight, left, soft)
         if soft:
             close_chord(pieces, at - piece_width(n), n, limits, state)
             cap2 = min(cap2, state.run.exit2)
@@ -108,6 +109,7 @@ def meet_chord(
     state: State,
     length: float,
     weight: float,
+    left: float,
     soft: bool,
 ) -> float:
     """Let a chord go on smoothly with the one before: one tangent for both. Largest x where they meet.
@@ -144,7 +146,10 @@ def meet_chord(
     # In the middle of its chord the curve is longer than the chord by `turn²/16` at most (a cubic, `run.py`).
     for k in range(1 if known else 0, 2):
         chord = at - (1 - k) * piece_width(n)
-        top2 = chord_top2(pieces, chord, n, limits)
+        if k == 0:
+            top2 = chord_top2(pieces, chord, n, limits, state.run.row_top, state.run.speed_left)
+        else:
+            top2 = chord_top2(pieces, chord, n, limits, state.row.top, left)
         longer = 1.0 - 0.125 * min(turn2, 4.0)
         pieces[chord + PieceRecord.CAP2] = min(pieces[chord + PieceRecord.CAP2] * longer, top2)
         pieces[chord + PieceRecord.ENTRY2] = min(
@@ -252,7 +257,7 @@ def end_chord(pieces: Floats, n: int, limits: Limits, state: State) -> None:
         here = at + PieceRecord.VECTORS
         if state.run.stop != 0.0 and pieces[at + PieceRecord.PAUSE] == 0.0:
             mirror(pieces, here + n, here, n, limits, state.tangent, state.run.metric)
-            top2, turn2 = chord_top2(pieces, at, n, limits), 0.0
+            top2, turn2 = chord_top2(pieces, at, n, limits, state.run.row_top, state.run.speed_left), 0.0
             for i in range(n):
                 w = state.run.metric if limits.rotary[i] != 0.0 else 1.0
                 turn2 += square(w * (pieces[here + n + i] - pieces[here + i]))
@@ -360,8 +365,11 @@ def bend2(pieces: Floats, tangents: int, n: int, limits: Limits) -> float:
     return x2
 
 
-def chord_top2(pieces: Floats, at: int, n: int, limits: Limits) -> float:
+def chord_top2(pieces: Floats, at: int, n: int, limits: Limits, row_top: float, left: float) -> float:
     """Largest x at which every axis keeps its velocity all along the cubic over a spline's chord (`run.py`).
+
+    Of what the program leaves of velocities it is known that the chord itself may be passed at `row_top`, and that
+    every axis has the part `left`: so fast each may be where the cubic moves it faster than the chord does.
 
     Its derivative by the share f of the chord, over the chord's length, is
     `u + l·(1 - f)·(1 - 3·f) + a·f·(3·f - 2)`, where u is the chord's direction, and l and a are what the tangents at
@@ -378,6 +386,8 @@ def chord_top2(pieces: Floats, at: int, n: int, limits: Limits) -> float:
             if 0.0 < f < 1.0:
                 most = max(most, abs(leave - 3.0 * bow * f * f))
         if most > 0.0:
-            top = limits.top_feed[i] / most
-            top2 = min(top2, top * top)
+            speed = limits.top_feed[i]
+            if left < 1.0 and row_top < inf:
+                speed = min(speed, max(row_top * abs(unit), left * speed))
+            top2 = min(top2, square(speed / most))
     return top2

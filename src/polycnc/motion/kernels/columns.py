@@ -171,6 +171,8 @@ class ContextRecord(Places):
     BY_WAY = place()
     #: Rows of feed are chords of a smooth curve of the rotary axes (1).
     CHORDS = place()
+    #: The least part of its velocity that the program leaves an axis (VELOLIM).
+    SPEED_LEFT = place()
     #: Nine numbers by rows, then the shift.
     FRAME = place(12)
     OFFSETS = place(0)
@@ -295,6 +297,7 @@ class RunState(Structure):
         chord_ease: Factor on the limits along the last chord.
         tolerance: Contour tolerance along it.
         corner_top2: Highest x at a corner behind the row before, where that is led by a tip; 0 for no bound.
+        row_top: What the program leaves of the speed of the row before, by its direction; `speed_left` is SPEED_LEFT.
         passed: With limited jerk: highest speed at the last joint; `lone` likewise, 0 where it is in a row (`jerk.py`).
         gap: Way from there to the row before.
         rate: Angle that the arc before turns by a mm at its end, 0 of a line; at the joint to an arc the larger one.
@@ -340,6 +343,8 @@ class RunState(Structure):
     chord_ease: float
     tolerance: float
     corner_top2: float
+    row_top: float
+    speed_left: float
     passed: float
     lone: float
     gap: float
@@ -461,7 +466,7 @@ class State(NamedTuple):
 
 def new_state(n: int, start: Sequence[float] = ()) -> State:
     """The state before the first row of n axes that stand at a machine position, at zero where it is left out."""
-    run = RunState(stop=1.0, low2=inf, low_pull=inf, override=1.0)
+    run = RunState(stop=1.0, low2=inf, low_pull=inf, override=1.0, row_top=inf, speed_left=1.0)
     records = run, JointState(top2=inf), RowState(), ArcState()
     position = zeros(n)
     position[: len(start)] = array("d", start)

@@ -263,6 +263,7 @@ def lay_move(
         state.position[i] = state.target[i]
     state.run.station = contexts[record + ContextRecord.STATION]
     state.run.off, state.run.swung = state.row.off, state.row.swung
+    state.run.row_top, state.run.speed_left = state.row.top, contexts[record + ContextRecord.SPEED_LEFT]
     if stands:
         state.run.stop = 1.0
     return True

@@ -177,7 +177,9 @@ def add_bend(
             pieces[here + i] = pieces[here + n + i] = (pieces[place + n] - pieces[place]) / length
             pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0
     spare(pieces, at, n, ease)
-    cap2, margin = pieces[at + PieceRecord.CAP2], pieces[at + PieceRecord.MARGIN]
+    # Between the directions of both rows no axis moves faster than in one of them.
+    left = min(state.run.row_top, state.row.top)
+    cap2, margin = min(pieces[at + PieceRecord.CAP2], left * left), pieces[at + PieceRecord.MARGIN]
     for k in range(2):
         far = end if k == 1 else start
         far = far if far > NO_BEND_MM else 0.0

@@ -86,6 +86,19 @@ class Search:
         self.place = int(aim)
 
 
+class Indexing:
+    """A spindle on its way to an angle, which takes it some seconds whatever the angle."""
+
+    share = "spindle_s"
+
+    def __init__(self) -> None:
+        self.left_s = 0.0
+
+    def begin(self, aim: float, since: float | None = None) -> None:  # noqa: ARG002 - it always takes as long
+        """It turns for so many seconds."""
+        self.left_s = aim
+
+
 class Begins(NamedTuple):
     """At a row some work begins, `after_s` seconds later than the row, and at `since` where that is known."""
 

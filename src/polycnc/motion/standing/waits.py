@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from array import array
+from bisect import bisect_right
 from math import pi, sqrt
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING, Literal
 from polycnc.motion.kernels.columns import Form, PieceRecord
-from polycnc.motion.standing.beside import Awaits, Begins, Search, Turning
+from polycnc.motion.standing.beside import Awaits, Begins, Indexing, Search, Turning
 from polycnc.motion.standing.zero_mark import Mark, SpindleAngle, Turns
 from polycnc.toolpath import Kind
 from polycnc.toolpath.events import (
@@ -30,12 +31,13 @@ if TYPE_CHECKING:
 
     from polycnc.machine import Machine, Spindle
     from polycnc.motion.standing.beside import Step, Work
-    from polycnc.toolpath import Context, Event
+    from polycnc.toolpath import Context, Event, Toolpath
     from polycnc.toolpath.motion_settings import SpindleWaitFor
     from polycnc.toolpath.table import Chunk
 
 #: Events that the control puts out between two blocks and waits for: the axes stand still.
 STANDING = (Auxiliary, BuilderCode, SpindleSpeed, SpindleWait, ToolSelection, HFunction, Stop, Stroke, Raised)
+#: M19 turns the spindle to its angle, for which the axes stand whatever the machine file says.
 ORIENT = 19
 #: In the order of the steps of a chunk: an event, or a thread that begins, not the number of a context.
 EVENT, THREAD = -1, -2
@@ -87,7 +89,7 @@ class Waits:
 
     Args:
         machine: Spindle ramps, change time and auxiliary functions come from here.
-        contexts: The toolpath's contexts.
+        toolpath: Whose rows they are.
         tool: Number or name of the tool in the spindle at the start; 0 for none.
         wait: Called with row number, share (a field of `Times`), context number and seconds.
 
@@ -102,12 +104,12 @@ class Waits:
     def __init__(
         self,
         machine: Machine,
-        contexts: list[Context],
+        toolpath: Toolpath,
         tool: int | str,
         wait: Callable[[int, str, int, float], None],
     ) -> None:
         self.machine = machine
-        self.contexts = contexts
+        self.contexts, self._block_starts = toolpath.contexts, toolpath.block_starts
         self._say, self._waited = wait, (-1, 0.0)
         self.parallel: list[Parallel] = []
         self.step: Callable[[Step], None] = _nobody
@@ -115,6 +117,7 @@ class Waits:
         self._turning: dict[int, Turning] = {}
         self.angles: dict[int, SpindleAngle] = {}
         self._before_thread: dict[int, float] = {}  # what rows that begin a thread wait for besides
+        self._indexing: dict[int, Indexing] = {}
         self._open: Turning | None = None  # the next cut waits for it
         self._looked = 0
         self._search, self._pockets = Search(machine.magazine), dict[int, int]()
@@ -151,7 +154,7 @@ class Waits:
         """Whether the axes stand still for an event."""
         if isinstance(event, Auxiliary):
             function = self.machine.m_functions.get(event.code)
-            return function is None or function.timing != "with"
+            return function is None or function.timing != "with" or event.code == ORIENT
         if isinstance(event, Deed):
             return event.stands or not event.is_silent
         return isinstance(event, STANDING)
@@ -161,9 +164,9 @@ class Waits:
         event = chunk.events[chunk.curve[row]]
         if self.stands_for(event):
             return True
-        if not isinstance(event, Auxiliary) or self.machine.m_functions[event.code].seconds <= 0.0:
+        if not isinstance(event, Auxiliary) or not self.machine.goes_beside(event.code):
             return False
-        return not _moves(chunk, row)
+        return not _moves(chunk, *self._block_of(chunk, row))
 
     def stops(self, chunk: Chunk) -> array[int]:
         """For each event of a chunk whether the axes stand still for it."""
@@ -374,13 +377,19 @@ class Waits:
         event = chunk.events[chunk.curve[row]]
         if isinstance(event, ToolSelection):
             self._select(chunk.first + row, event.tool)
-        if isinstance(event, BuilderCode):
+        if isinstance(event, BuilderCode) and event.index_s > 0.0:
+            work = self._indexing[event.spindle] = Indexing()
+            self._begin(chunk.first + row, work, event.index_s)
+        elif isinstance(event, BuilderCode):
             g_function = self.machine.g_functions.get(event.code)
             if g_function is not None and g_function.seconds > 0.0:
                 self.wait(chunk.first + row, "auxiliary_s", chunk.context[row], g_function.seconds)
         if isinstance(event, SpindleWait):
             self._lose(chunk.first + row, chunk.context[row])
-            self.wait(chunk.first + row, "spindle_s", chunk.context[row], event.seconds)
+            if event.spindle in self._indexing:
+                self.step(Awaits(chunk.first + row, self._indexing.pop(event.spindle), chunk.context[row]))
+            else:
+                self.wait(chunk.first + row, "spindle_s", chunk.context[row], event.seconds)
         if isinstance(event, Stroke) and event.delay:
             self.wait(chunk.first + row, "auxiliary_s", chunk.context[row], event.delay)
         if not isinstance(event, Auxiliary):
@@ -388,8 +397,8 @@ class Waits:
         code, context = event.code, chunk.context[row]
         function = self.machine.m_functions.get(code)
         if function is not None and function.seconds > 0.0:
-            if function.timing == "with" and _moves(chunk, row):
-                last = _end_of_block(chunk, row)
+            first, last = self._block_of(chunk, row)
+            if code != ORIENT and self.machine.goes_beside(code) and _moves(chunk, first, last):
                 self.parallel.append(
                     Parallel(chunk.first + row, chunk.first + last, context, function.seconds)
                 )
@@ -401,6 +410,20 @@ class Waits:
             if spindle is not None and spindle.number in self._turning:
                 self.step(Awaits(chunk.first + row, self._turning[spindle.number], context))
             self.wait(chunk.first + row, "spindle_s", context, spindle.orient_s if spindle else 0.0)
+
+    def _block_of(self, chunk: Chunk, row: int) -> tuple[int, int]:
+        """The first and the last row that the block of a row made."""
+        starts, number = self._block_starts, chunk.first + row
+        behind = bisect_right(starts, number)
+        least = max(starts[behind - 1] - chunk.first, 0) if behind else 0
+        most = min(starts[behind] - chunk.first, len(chunk)) if behind < len(starts) else len(chunk)
+        place = chunk.line[row], chunk.program[row]
+        first, last = row, row + 1
+        while first > least and (chunk.line[first - 1], chunk.program[first - 1]) == place:
+            first -= 1
+        while last < most and (chunk.line[last], chunk.program[last]) == place:
+            last += 1
+        return first, last - 1
 
     def _dwell(self, chunk: Chunk, row: int, radius_mm: float) -> None:
         number, at = chunk.context[row], chunk.curve[row] * CURVE_WIDTH
@@ -495,22 +518,6 @@ def _places(kinds: bytes, kind: Kind) -> Iterator[int]:
         at = kinds.find(kind, at + 1)
 
 
-def _moves(chunk: Chunk, row: int) -> bool:
-    """Whether the block of a row moves."""
-    first, last = row, _end_of_block(chunk, row)
-    place = chunk.line[row], chunk.program[row]
-    while first > 0 and (chunk.line[first - 1], chunk.program[first - 1]) == place:
-        first -= 1
+def _moves(chunk: Chunk, first: int, last: int) -> bool:
+    """Whether rows move an axis."""
     return any(kind < Kind.DWELL for kind in chunk.kind[first : last + 1])
-
-
-def _end_of_block(chunk: Chunk, row: int) -> int:
-    """The last row that the block of a row made."""
-    last = row
-    while (
-        last + 1 < len(chunk)
-        and chunk.line[last + 1] == chunk.line[row]
-        and chunk.program[last + 1] == chunk.program[row]
-    ):
-        last += 1
-    return last

@@ -43,8 +43,8 @@ def wait_for_index(channel: LatheChannel, words: Words) -> None:
         raise words.fail("indexing_company", "R")
     turning = IndexingState.of(channel).turning
     if spindle in turning:
-        turning.remove(spindle)
         _wait_for(channel, spindle)
+        turning.remove(spindle)  # behind a wait for the main run the block begins again
 
 
 def turn_as_spindle(channel: LatheChannel, words: Words) -> None:
@@ -62,7 +62,8 @@ def _begin(channel: LatheChannel, words: Words, code: str) -> int:
     if spindle == MASTER and channel.memory.spindle.direction:
         channel.memory.spindle.direction = 0
         channel.context_changed()
-    _send(channel, code, {"P": float(spindle), "R": angle})
+    seconds = channel.machine.spindle[spindle].orient_s
+    _send(channel, code, {"P": float(spindle), "R": angle}, spindle, seconds)
     return spindle
 
 
@@ -76,9 +77,11 @@ def _spindle(channel: LatheChannel, words: Words, code: str) -> int:
     return number
 
 
-def _send(channel: LatheChannel, code: str, values: dict[str, float]) -> None:
+def _send(
+    channel: LatheChannel, code: str, values: dict[str, float], spindle: int = 0, index_s: float = 0.0
+) -> None:
     channel.flush()
-    channel.event(BuilderCode(code, values))
+    channel.event(BuilderCode(code, values, spindle, index_s))
 
 
 def _wait_for(channel: LatheChannel, spindle: int) -> None:

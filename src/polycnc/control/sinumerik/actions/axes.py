@@ -246,13 +246,15 @@ def call(channel: SinumerikChannel, name: str, places: dict[int, float]) -> None
         machine[column] = place
     channel.coordinates.arrive_machine(machine)
     if clocked is None:
+        channel.flush()
+        channel.toolpath.recount(places)
         return
 
     def do() -> None:
         for column, place in places.items():
             clocked.stand_at(column, place)
 
-    channel.event(Deed(name, None, do, places=tuple(places.items())))
+    channel.event(Deed(name, None, do, places=tuple(places.items()), stands=True))
 
 
 def _nothing() -> None:

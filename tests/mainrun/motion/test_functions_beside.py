@@ -1,0 +1,158 @@
+"""M functions that machine files let go on beside motion: plan, samples and main run take the same time with them."""
+
+from __future__ import annotations
+
+from random import Random
+from typing import TYPE_CHECKING
+
+import pytest
+
+from polycnc.machine import parse_setup
+from polycnc.mainrun import State
+from polycnc.session import open_session
+from tests.mainrun.support import power_on, recorded
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+#: Seconds of M functions that go on beside the motion of their blocks; M41 is one for which the axes stand.
+BESIDE = {3: 0.04, 5: 0.1, 7: 0.05, 8: 0.4, 9: 0.03, 19: 0.02, 68: 0.57, 69: 0.6}
+CONTROLS = ("fanuc-m", "fanuc-0i-tf", "meldas-m", "syntec-mill", "sinumerik-840d")
+SEEDS = range(40)
+
+
+def machine(folder: Path, base: str, seconds: Mapping[int, float] = BESIDE) -> str:
+    """A machine file with M functions that take these seconds."""
+    text = f'base = "{base}"\n[m_function.41]\nseconds = 0.1\n'
+    for code, each in seconds.items():
+        text += f'[m_function.{code}]\nseconds = {each}\ntiming = "with"\n'
+    file = folder / "machine.toml"
+    file.write_text(text)
+    return str(file)
+
+
+def planned(text: str, control: str, file: str, setup: dict[str, object]) -> float:
+    """The planned time of a program, with which its samples end as well."""
+    session = open_session(text.encode(), control=control, machine=file, setup=setup, keep=False)
+    sampler = session.sample(0.01, lambda _: None)
+    result = session.run()
+    assert result.ok, result.alarms
+    total_s = result.plan.total_s
+    sampler.close()
+    assert sampler.time == pytest.approx(total_s, abs=1e-6)
+    return total_s
+
+
+def executed(text: str, control: str, file: str, setup: dict[str, object]) -> float:
+    """Seconds of the main run."""
+    virtual = power_on(text, control, machine=file, setup=parse_setup(setup))
+    records, start = recorded(virtual), virtual.time
+    virtual.cycle_start()
+    assert virtual.run(limit_s=1000.0) is State.READY
+    return next(record.time for record in reversed(records) if record.what == "state") - start
+
+
+def same_time(text: str, control: str, file: str, setup: dict[str, object] | None = None) -> float:
+    """The time of a program, which is that of its main run."""
+    total_s = planned(text, control, file, setup or {})
+    assert executed(text, control, file, setup or {}) == pytest.approx(total_s, abs=5e-4)
+    return total_s
+
+
+class Writer:
+    """A random program of incremental moves of any length, with up to two M functions in a block."""
+
+    def __init__(self, control: str, seed: int) -> None:
+        self.control, self.draw = control, Random(seed)
+        self.is_sinumerik, self.is_lathe = control == "sinumerik-840d", control == "fanuc-0i-tf"
+
+    def text(self) -> str:
+        """The whole program, perhaps with a subprogram of one line or two that runs twice."""
+        blocks = [self._head(), *(self._block() for _ in range(self.draw.randint(4, 14)))]
+        if self.is_sinumerik:
+            return "\n".join([*blocks, "AGAIN: G1 X1 M8", "REPEATB AGAIN P=2", "M30", ""])
+        if self.is_lathe:
+            return "\n".join(["O1", *blocks, "M30", ""])
+        call = "M98 P20002" if self.control == "fanuc-m" else "M98 P2 L2"
+        return "\n".join(["O1", *blocks, call, "M30", "O2", "G91 G1 X1. M8", "M99", ""])
+
+    def _head(self) -> str:
+        feed = f"F{self.draw.choice((600, 3000, 8000))}"
+        if self.is_lathe:
+            return f"G98 {feed}"
+        if self.is_sinumerik:
+            rounded = self.draw.choice(("G64", "G60", "G641 ADIS=0.5", "G642"))
+            return f"G91 G94 {rounded} {self.draw.choice(('SOFT', 'BRISK'))} {feed}"
+        return f"G91 G94 {self.draw.choice(('G64', 'G61'))} {feed}"
+
+    def _block(self) -> str:
+        draw, words = self.draw, list[str]()
+        kind = draw.random()
+        if kind < 0.7:
+            axis = draw.choice("UW" if self.is_lathe else "XYZ")
+            way = draw.choice((-1, 1)) * draw.choice((0.05, 0.3, 1.0, 5.0, 20.0))
+            words = [draw.choice(("G1", "G1", "G0")), f"{axis}{way:.3f}"]
+        elif kind < 0.8:
+            words = ["G4", "F0.1" if self.is_sinumerik else "P100"]
+        if not words and draw.random() < 0.3:
+            return f"S{draw.choice((500, 2000))} M3"
+        most = 1 if self.is_lathe else 2
+        return " ".join(
+            [*words, *(f"M{code}" for code in draw.sample((8, 9, 7, 41, 5), draw.randint(0, most)))]
+        )
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_plan_samples_and_main_run_wait_alike(tmp_path: Path, seed: int) -> None:
+    control = CONTROLS[seed % len(CONTROLS)]
+    setup: dict[str, object] = {"parameters": {"3404#7": 1}} if control == "fanuc-m" else {}
+    file = machine(tmp_path, "lathe2" if control == "fanuc-0i-tf" else "mill3")
+    same_time(Writer(control, seed).text(), control, file, setup)
+
+
+LOOPS = {
+    "fanuc-m": "O1\nG91 G94 F3000 G64\n#1=0\nWHILE [#1 LT 4] DO1\nG1 X5. M8\n#1=#1+1\nEND1\nM30\n",
+    "meldas-m": "O1\nG91 G94 F3000 G64\nM98 P2 L4\nM30\nO2\nG1 X5. M8\nM99\n",
+    "syntec-mill": "O1\nG91 G94 F3000 G64\nM98 P2 L4\nM30\nO2\nG1 X5. M8\nM99\n",
+    "sinumerik-840d": "G91 G94 F3000 G64\nR1=0\nWHILE R1<4\nG1 X5 M8\nR1=R1+1\nENDWHILE\nM30\n",
+}
+
+
+@pytest.mark.parametrize("control", LOOPS)
+def test_every_pass_of_a_loop_waits_for_its_function(tmp_path: Path, control: str) -> None:
+    assert same_time(LOOPS[control], control, machine(tmp_path, "mill3")) == pytest.approx(4 * BESIDE[8])
+
+
+DEEP = (
+    "CYCLE830(20,0,2,-60,0,0,0,0,0,21103,0,0,0.5,0,300,5,0,120,3,900,0,0,0,20,50,4,0,0,5,40,400,3,100,"
+    '"M8","M9",0,0,0,0,0,1)'
+)
+CYCLES = {
+    "fanuc-m": "G90 S300 M3\nG0 Z12.\nG86 X9. Z-7. R3. F300\nG76 X12. Q1. M8\nG84 X4.\nG80\nM30\n",
+    "meldas-m": "G90 S300 M3\nG0 Z12.\nG86 X9. Z-7. R3. F300\nG84 X4. F1. M8\nG80\nM30\n",
+    "syntec-mill": "G90 S800 M3\nG0 Z12.\nG76 X5. Y5. Z-6. R2. Q1.5 P2. F100\nG86 X9. M8\nG80\nM30\n",
+    "sinumerik-840d": (
+        f"T1 D1 M6\nG54 G90 G17 G0 X0 Y0 Z50\nS2000 M3 F300\n{DEEP}\nCYCLE82(10,0,2,-6,,0.2)\nX9 M8\nM30\n"
+    ),
+    "fanuc-0i-tf": "G98 G0 X40. Z2. C0\nG83 Z-5. R-1. F100. M68\nC90.\nG80\nG83 Z-5. R-1.\nG80\nM30\n",
+}
+
+
+@pytest.mark.parametrize("scale", [0.05, 1.0, 10.0])
+@pytest.mark.parametrize("control", CYCLES)
+def test_so_do_blocks_of_cycles(tmp_path: Path, control: str, scale: float) -> None:
+    seconds = {code: scale * each for code, each in BESIDE.items()}
+    setups: dict[str, dict[str, object]] = {
+        "fanuc-0i-tf": {"parameters": {"5110": 68, "5111": 100}},
+        "sinumerik-840d": {"tools": {1: {"length": 50.0, "radius": 4.0, "type": 200}}},
+    }
+    file = machine(tmp_path, "lathe-c" if control == "fanuc-0i-tf" else "mill3", seconds)
+    same_time(CYCLES[control], control, file, setups.get(control))
+
+
+def test_what_stands_waits_for_no_function_beside_the_motion(tmp_path: Path) -> None:
+    file = machine(tmp_path, "mill3")
+    text = "O1\nG91 G94 F3000\nG1 X5. M8 S3000\nX5.\nM30\n"
+    for control in ("fanuc-m", "meldas-m", "syntec-mill"):
+        assert same_time(text, control, file) < BESIDE[8] + 0.3
