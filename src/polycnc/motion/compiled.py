@@ -45,6 +45,7 @@ LIBRARY = Library(
     ),
     (
         f"{_KERNELS}.lay.lay",
+        f"{_KERNELS}.speeds.settled",
         f"{_KERNELS}.speeds.backward",
         f"{_KERNELS}.speeds.forward",
         f"{_KERNELS}.chords.settle",
@@ -58,6 +59,7 @@ class Kernels(NamedTuple):
     """The kernels that the planner calls; see `kernels/lay.py`, `kernels/speeds.py` and `kernels/chords.py`."""
 
     lay: Callable[[Rows, int, Floats, int, Floats, Limits, Floats, State], int]
+    settled: Callable[[Floats, int, State], int]
     backward: Callable[[Floats, int, int, Limits], int]
     forward: Callable[[Floats, int, int, Limits, float, Floats, Floats, int], None]
     settle: Callable[[Floats, int, Limits, State], None]

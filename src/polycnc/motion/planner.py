@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from array import array
 from bisect import bisect_left
-from math import sqrt
 
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.compiled import kernels, plain
@@ -460,7 +459,7 @@ class Planner:
         count, width = self._state.run.pieces, self._width
         self._final_row = self._final_row if end is None else end
         self._reach(min(max(self._laid, end or 0) + 1, self._next_row))
-        last = self._settled(count) if end is None else count
+        last = self._kernels.settled(self._pieces, self._axes, self._state) if end is None else count
         if last <= 0:
             return
         final = self._kernels.backward(self._pieces, last, self._axes, self._limits)
@@ -510,20 +509,6 @@ class Planner:
                 del self._rows[:forgotten]
                 self._first_row = needed
                 self._row_waits = {row: waits for row, waits in self._row_waits.items() if row >= needed}
-
-    def _settled(self, count: int) -> int:
-        """The number of pieces in the buffer that no row to come can change."""
-        state, pieces, width = self._state, self._pieces, self._width
-        reach = 0.5 * sqrt(state.run.top2) * state.run.window
-        if state.run.window == 0.0:
-            reach = 0.5 * state.run.length  # the corner behind the last row may bend so much of it
-        last, way = count - 1, 0.0
-        if state.run.chord and last > 0 and pieces[last * width + PieceRecord.PAUSE] == 0.0:
-            last -= 1  # what bounds the joint before it has not been spread
-        while last > 0 and way < reach and pieces[last * width + PieceRecord.PAUSE] == 0.0:
-            way += pieces[last * width + PieceRecord.LENGTH]
-            last -= 1
-        return min(last, count - state.run.straight_pieces) if state.run.alone == 2.0 else last
 
     # ---- rows and totals
     # -------------------------------------------------------------------------------------------

@@ -11,12 +11,27 @@ from __future__ import annotations
 from math import inf, sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.kernels.columns import Form, Limits, PieceRecord, piece_width
+from polycnc.motion.kernels.columns import Form, Limits, PieceRecord, State, piece_width
 
 #: Tries for the speed in the middle of a curved piece, and steps to the crest of `highest2`.
 TRIES = 16
 #: What an axis may add along the path counts as nothing below this part of its acceleration.
 NOTHING = 1e-9
+
+
+def settled(pieces: Floats, n: int, state: State) -> int:
+    """The number of pieces laid that no row to come can change: the last ones wait for the rows behind them."""
+    width, count = piece_width(n), state.run.pieces
+    reach = 0.5 * sqrt(state.run.top2) * state.run.window
+    if state.run.window == 0.0:
+        reach = 0.5 * state.run.length  # the corner behind the last row may bend so much of it
+    last, way = count - 1, 0.0
+    if state.run.chord != 0.0 and last > 0 and pieces[last * width + PieceRecord.PAUSE] == 0.0:
+        last -= 1  # what bounds the joint before it has not been spread
+    while last > 0 and way < reach and pieces[last * width + PieceRecord.PAUSE] == 0.0:
+        way += pieces[last * width + PieceRecord.LENGTH]
+        last -= 1
+    return min(last, count - state.run.straight_pieces) if state.run.alone == 2.0 else last
 
 
 def backward(pieces: Floats, count: int, n: int, limits: Limits) -> int:
