@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "FULL", "LOOKS", "PATH_STEP", "UNEVEN", "Bounds", "Corner", "Demand", "RowShares", "Shares", "Way", "between",
-    "bound_tip", "even_row", "farthest", "looks_along", "share_ends", "within",
+    "bound_tip", "crest", "even_row", "farthest", "looks_along", "share_ends", "within",
 ]  # fmt: skip
 
 #: Derivatives along the path are differences over so many mm or degrees at most.
@@ -39,6 +39,8 @@ FULL, LOOK = 2.0 * pi, radians(LOOK_DEG)
 KEPT, FAR_LOOKS = 0.8, 4
 #: Steps of the search for the worst place of a row.
 SEARCH = 40
+#: Looks between which an axis is faster by no more than this part are near enough to each other.
+SAME_SPEED = 1e-4
 #: Shares become shorter by this factor towards the worst place, or by a smaller one.
 SHORTER = 0.5
 
@@ -230,6 +232,22 @@ def between(demand: Demand, angle: float) -> Demand:
     nearer = cos(0.5 * min(angle, LOOK))
     bend, pull, jerk, turn = (value / nearer for value in demand[1:5])
     return Demand(demand.top * nearer, bend, pull, jerk, turn, demand.along)
+
+
+def crest(looks: Sequence[Demand]) -> list[float]:
+    """Where between even looks along a row its axes are fastest, if they are faster there than at a look.
+
+    That is the top of a parabola through the fastest look and those beside it.
+    """
+    speeds = [1.0 / look.top for look in looks]
+    at, last = speeds.index(max(speeds)), len(speeds) - 1
+    middle = min(max(at, 1), last - 1)
+    before, here, behind = speeds[middle - 1 : middle + 2]
+    slope, bow = 0.5 * (behind - before), before - 2.0 * here + behind
+    if bow >= 0.0 or here - 0.5 * slope * slope / bow <= (1.0 + SAME_SPEED) * speeds[at]:
+        return []
+    place = middle - slope / bow
+    return [place / last] if 0.0 < place < last else []
 
 
 def within(demands: list[Demand], length: float) -> tuple[float, float]:

@@ -35,6 +35,7 @@ from polycnc.motion.demand import (
     Way,
     between,
     bound_tip,
+    crest,
     even_row,
     farthest,
     looks_along,
@@ -453,6 +454,11 @@ class RealAxes:
         looks = [look(k / count, lateral=True) for k in range(count + 1)]
         sizes = [max(look.pull, 1.0 / look.top) for look in looks]
         uneven = max(sizes) >= UNEVEN * min(sizes) or any(rests)
+        places = [k / count for k in range(count + 1)]
+        if not uneven:
+            fastest = crest(looks)
+            places += fastest
+            looks += [look(place, lateral=True) for place in fastest]
         is_tip = len(self.limits(context).linkage) > 0
         even = not uneven or (is_tip and not any(rests))
         if kind in ARC_KINDS and even and self._may_reach(context):
@@ -462,7 +468,7 @@ class RealAxes:
         # Where the program limits single axes, an axis that stands in a line leaves that its whole acceleration.
         limited = kind in (Kind.RAPID, Kind.FEED) and context.pace is not None and not context.chords
         if (kind in ARC_KINDS or limited) and not uneven:
-            inside = [look(k / count, lateral=False) for k in range(count + 1)]
+            inside = [look(place, lateral=False) for place in places]
             found = self._corners(context, length, look, [(1.0, *within(inside, length))], rests)
             # What holds at corners all along the row lets their averages reach as far as they like.
             top, ease = within(looks, length)
@@ -484,9 +490,8 @@ class RealAxes:
             places = [begin, f, 0.5 * (begin + f)]
             if begin <= worst <= f:
                 places.append(worst)
-                # Beside it a rotary axis changes its speed most. With limited jerk the bounds of the jerk are lower.
-                steps = 1 if way.soft else WITHIN
-                places += [begin + (f - begin) * k / steps for k in range(1, steps)]
+                # Beside it a rotary axis changes its speed most.
+                places += [begin + (f - begin) * k / WITHIN for k in range(1, WITHIN)]
             parts = looks_along(angle * (f - begin), 1)
             places += [begin + (f - begin) * k / parts for k in range(1, parts)]
             part = angle * (f - begin) / parts

@@ -43,8 +43,13 @@ DRAWN, IN_A_TEST, EXPLORE, BACK, LIMITED = 2000, 50, 20_000, 30, 16
 #: under SOFT.
 FOUND = (341917, 487807, 535447, 975837, 998267, 294, 674, 705, 1895, 3265, 1310, 203865)
 #: Programs without a transformation in which an axis exceeded what JERKLIM leaves it, on rows that do not move it, and
-#: with one in which it exceeded what VELOLIM does, where a chord of a curve moves it faster than its ends say.
-LIMITED_FOUND = {limited.LimitedMill: (47, 67), limited.LimitedVectors: (33,)}
+#: with one in which it exceeded what VELOLIM does, where a chord of a curve moves it faster than its ends say. Beside
+#: the centre of a polar plane C exceeded what ACC leaves it under SOFT, and what VELOLIM does where a line is nearest.
+LIMITED_FOUND = {
+    limited.LimitedMill: (47, 67),
+    limited.LimitedPolar: (81, 89, 118),
+    limited.LimitedVectors: (33,),
+}
 #: Parameters that leave axes less than the machine: at corners, on short lines and arcs, by time constants.
 PARAMETERS: dict[str, tuple[dict[str, object], ...]] = {
     "fanuc-m": (
