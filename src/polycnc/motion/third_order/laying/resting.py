@@ -3,6 +3,9 @@
 A corner that turns the way of an axis by D, with knots h before and behind it, has a q'' of D/h and a q''' of D/h²: by
 its acceleration a and its jerk j the axis passes it at `√(a·h/D)` and at `∛(j·h²/D)`, steadily on 2·h; more slowly
 maybe by parameters. A line between two rests takes the least time, by averages of its own (`kernels/alone.py`).
+
+At corners of lines that take a few hundredths of a second a rest would save two to four parts in a hundred, but a run
+begins anew behind it, which takes as long to plan as ten of such rows: these are passed.
 """
 
 from __future__ import annotations
@@ -20,6 +23,8 @@ from polycnc.motion.third_order.bends.turning import FULL
 HALVINGS = 12
 #: A law takes so many times as long as is reckoned here.
 LED = 1.02
+#: Seconds from rest to rest below which a line is not worth a rest at its end.
+WORTHWHILE_S = 0.1
 
 
 def is_sooner_with_rest(n: int, limits: Limits, lead: State, path: Stretches, e: int, wanted: float) -> bool:
@@ -39,9 +44,10 @@ def is_sooner_with_rest(n: int, limits: Limits, lead: State, path: Stretches, e:
     if corner >= top:
         return False
     first, second = path.way[e] - path.way[e - 1], path.way[e + 1] - path.way[e]
-    resting = alone_s(n, limits, path.arrive, (e - 1) * n, first, top, lead.joint.ease)
-    resting += alone_s(n, limits, path.leave, e * n, second, top, lead.joint.ease)
-    if resting * corner >= first + second:
+    before = alone_s(n, limits, path.arrive, (e - 1) * n, first, top, lead.joint.ease)
+    behind = alone_s(n, limits, path.leave, e * n, second, top, lead.joint.ease)
+    resting = before + behind
+    if min(before, behind) < WORTHWHILE_S or resting * corner >= first + second:
         return False
     passing = passed_s(n, limits, path.arrive, (e - 1) * n, first, top, lead.joint.ease, corner, h)
     passing += passed_s(n, limits, path.leave, e * n, second, top, lead.joint.ease, corner, h)
