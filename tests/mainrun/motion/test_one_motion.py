@@ -45,10 +45,12 @@ FOUND = (341917, 487807, 535447, 975837, 998267, 294, 674, 705, 1895, 3265, 1310
 #: Programs without a transformation in which an axis exceeded what JERKLIM leaves it, on rows that do not move it, and
 #: with one in which it exceeded what VELOLIM does, where a chord of a curve moves it faster than its ends say. Beside
 #: the centre of a polar plane C exceeded what ACC leaves it under SOFT, and what VELOLIM does where a line is nearest.
+#: Where a path is bent at a corner an axis exceeded it that moves less in one of both rows.
 LIMITED_FOUND = {
     limited.LimitedMill: (47, 67),
+    limited.SlowAxes: (27, 116, 118),
     limited.LimitedPolar: (81, 89, 118),
-    limited.LimitedVectors: (33,),
+    limited.LimitedVectors: (33, 182),
 }
 #: Parameters that leave axes less than the machine: at corners, on short lines and arcs, by time constants.
 PARAMETERS: dict[str, tuple[dict[str, object], ...]] = {

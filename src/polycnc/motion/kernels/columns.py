@@ -297,7 +297,8 @@ class RunState(Structure):
         chord_ease: Factor on the limits along the last chord.
         tolerance: Contour tolerance along it.
         corner_top2: Highest x at a corner behind the row before, where that is led by a tip; 0 for no bound.
-        row_top: What the program leaves of the speed of the row before, by its direction; `speed_left` is SPEED_LEFT.
+        row_top: What transformation and program leave of the speed of the row before, by its direction, at its end;
+            `speed_left` is SPEED_LEFT.
         passed: With limited jerk: highest speed at the last joint; `lone` likewise, 0 where it is in a row (`jerk.py`).
         gap: Way from there to the row before.
         rate: Angle that the arc before turns by a mm at its end, 0 of a line; at the joint to an arc the larger one.

@@ -264,6 +264,8 @@ def lay_move(
     state.run.station = contexts[record + ContextRecord.STATION]
     state.run.off, state.run.swung = state.row.off, state.row.swung
     state.run.row_top, state.run.speed_left = state.row.top, contexts[record + ContextRecord.SPEED_LEFT]
+    if state.row.shares > 1:
+        state.run.row_top = state.share_top[state.row.shares - 1]
     if stands:
         state.run.stop = 1.0
     return True

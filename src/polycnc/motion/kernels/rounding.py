@@ -178,7 +178,7 @@ def add_bend(
             pieces[here + 2 * n + i] = pieces[here + 3 * n + i] = 0.0
     spare(pieces, at, n, ease)
     # Between the directions of both rows no axis moves faster than in one of them.
-    left = min(state.run.row_top, state.row.top)
+    left = min(state.run.row_top, state.share_top[0] if state.row.shares > 1 else state.row.top)
     cap2, margin = min(pieces[at + PieceRecord.CAP2], left * left), pieces[at + PieceRecord.MARGIN]
     for k in range(2):
         far = end if k == 1 else start
