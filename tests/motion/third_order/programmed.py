@@ -57,7 +57,7 @@ class ProgrammedPath:
     ) -> None:
         self._n, self._plane = len(start), plane
         turns = array("d", [1.0 if turn else 0.0 for turn in rotary] or [0.0] * self._n)
-        empty = (array("d") for _ in range(8))
+        empty = (array("d") for _ in range(9))
         self.path = Stretches(
             way=array("d", (0.0,)),
             place=array("d", start),
@@ -69,6 +69,7 @@ class ProgrammedPath:
             cap2=next(empty),
             step2=next(empty),
             spread2=next(empty),
+            left2=next(empty),
             ease=next(empty),
             row=array("q"),
             rotary=turns,
@@ -176,6 +177,7 @@ class ProgrammedPath:
         path.cap2.append(bounds.speed * bounds.speed)
         path.step2.append(inf)
         path.spread2.append(inf)
+        path.left2.append(inf)
         path.ease.append(bounds.ease)
         path.row.append(row)
 

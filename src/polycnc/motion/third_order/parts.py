@@ -41,7 +41,7 @@ class Part(NamedTuple):
         first: q' there.
         second: q'' there.
         cap2: Largest square of the speed on each piece, m.
-        corner2: That by parameters for corners near it, m.
+        corner2: That by parameters for corners near it, and by what the program leaves the rows near it, m.
         ease: The part of acceleration and jerk that may be used there, m.
         row: Number of the row of each piece, m; of several the first.
         rows: Numbers of the rows that end in the part, r.
@@ -75,6 +75,7 @@ def cut_out(path: Stretches, first: int, end: int, origin: float) -> Stretches:
         cap2=path.cap2[first:end],
         step2=path.step2[first:end],
         spread2=path.spread2[first:end],
+        left2=path.left2[first:end],
         ease=path.ease[first:end],
         row=path.row[first:end],
     )
@@ -197,7 +198,7 @@ def turning_for(count: int) -> Turning:
 
 def spline_for(room: int, n: int) -> Spline:
     """Room for a spline of so many knots."""
-    way, apart, moved = (numbers(room) for _ in range(3))
+    way, apart, moved = (numbers(more) for more in (room, room, room + 3))
     return Spline(way, apart, moved, whole(room), whole(room), *(numbers((room + 3) * n) for _ in range(4)))
 
 

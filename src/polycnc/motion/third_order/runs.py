@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 ENDS, PLACES = ("way",), ("place",)
 VECTORS, SINGLE = (
     ("leave", "arrive"),
-    ("form", "tolerance", "turn_tolerance", "cap2", "step2", "spread2", "ease", "row"),
+    ("form", "tolerance", "turn_tolerance", "cap2", "step2", "spread2", "left2", "ease", "row"),
 )
 
 #: Stretches that are taken at once: what lies behind them need not be moved when those before are forgotten.

@@ -6,7 +6,7 @@ from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.controls import Spline, lay_controls, shape
 from polycnc.motion.third_order.bends.knots import Samples, even_out, place_knots, take_samples
 from polycnc.motion.third_order.bends.levelling import level
-from polycnc.motion.third_order.bends.pieces import Pieces, bound_pieces, cut_pieces
+from polycnc.motion.third_order.bends.pieces import Pieces, bound_pieces, cut_pieces, take_left
 from polycnc.motion.third_order.bends.seams import first_piece, pieces_behind
 from polycnc.motion.third_order.bends.stretches import Stretches, curve_lines
 from polycnc.motion.third_order.bends.turning import Turning, sum_turning, weigh_evenly
@@ -65,7 +65,8 @@ def bend_path(
             told[1] = found
         if found == 0:
             last = made - pieces_behind(seams)
-            made = cut_pieces(path, n, spline, made, first_piece(seams), last)
+            take_left(path, spline, made, pieces)
+            made = cut_pieces(path, n, spline, made, first_piece(seams), last, pieces)
             if made < 0:
                 return NO_ROOM
             bound_pieces(path, n, spline, made, pieces)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from math import inf
+from math import inf, sqrt
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.at_corners import SLIVER, corner_cap2, spread_reach, step_reach
-from polycnc.motion.third_order.bends.controls import Spline
+from polycnc.motion.third_order.bends.controls import Spline, greville
 from polycnc.motion.third_order.bends.stretches import Stretches
 
 #: Stretches whose x differ by no more than this share one piece.
@@ -15,7 +15,10 @@ ALIKE = 1.1
 
 
 class Pieces(NamedTuple):
-    """Of each piece the largest square of the speed, that by corners alone, the part of the limits, its first row."""
+    """Of each piece the largest square of the speed, that by corners alone, the part of the limits, its first row.
+
+    What the program leaves the rows around counts for corners: there the axes of one row move in another.
+    """
 
     cap2: Floats
     corner2: Floats
@@ -23,7 +26,39 @@ class Pieces(NamedTuple):
     row: Ints
 
 
-def cut_pieces(path: Stretches, n: int, spline: Spline, count: int, first: int, last: int) -> int:
+def take_left(path: Stretches, spline: Spline, count: int, pieces: Pieces) -> None:
+    """Set `corner2` of every piece to what the program leaves the rows from which the piece has its q'.
+
+    Between two control points the spline's q' is a mean of that of the path, and so is no more of an axis asked for
+    than the mean of the rows' slownesses, 1/√left2, allows. On a piece q' is a mean of three of these. `moved` is of
+    no use behind this.
+    """
+    last, limited = len(path.form) - 1, False
+    for e in range(last + 1):
+        limited = limited or path.left2[e] < inf
+    if not limited:
+        for k in range(count):
+            pieces.corner2[k] = inf
+        return
+    e = 0
+    for k in range(count + 2):
+        start, end = greville(spline, count, k), greville(spline, count, k + 1)
+        while e < last and path.way[e + 1] <= start:
+            e += 1
+        at, slow = start, 0.0
+        while e < last and path.way[e + 1] < end:
+            slow += (path.way[e + 1] - at) / sqrt(path.left2[e])
+            e += 1
+            at = path.way[e]
+        spline.moved[k] = (slow + (end - at) / sqrt(path.left2[e])) / (end - start)
+    for k in range(count):
+        slowest = max(spline.moved[k], spline.moved[k + 1], spline.moved[k + 2])
+        pieces.corner2[k] = 1.0 / (slowest * slowest) if slowest > 0.0 else inf
+
+
+def cut_pieces(
+    path: Stretches, n: int, spline: Spline, count: int, first: int, last: int, pieces: Pieces
+) -> int:
     """Cut pieces where the programmed speed, or the part of the limits, changes: a slow row slows no other one.
 
     Args:
@@ -33,6 +68,7 @@ def cut_pieces(path: Stretches, n: int, spline: Spline, count: int, first: int, 
         count: Its pieces.
         first: The first of them to cut.
         last: The one behind the last of them.
+        pieces: `corner2` of each goes on with its parts.
 
     Returns:
         How many pieces it has then, -1 where there is no room.
@@ -44,6 +80,8 @@ def cut_pieces(path: Stretches, n: int, spline: Spline, count: int, first: int, 
     k, to = count, made
     while to > k:  # from behind, to where nothing is cut any more
         cut = spline.moved[to - k - 1]
+        if k < count:
+            pieces.corner2[to] = pieces.corner2[k]
         if spline.way[k] > cut:
             spline.way[to] = spline.way[k]
             for i in range(n):
@@ -131,9 +169,9 @@ def bound_pieces(path: Stretches, n: int, spline: Spline, count: int, pieces: Pi
         while e < last and path.way[e + 1] <= start:
             e += 1
         pieces.row[k] = path.row[e]
-        cap2, ease, corner2, other = path.cap2[e], path.ease[e], inf, e
+        cap2, ease, corner2, other = path.cap2[e], path.ease[e], pieces.corner2[k], e
         if e > 0:
-            corner2 = corner_cap2(path, e, start, end)
+            corner2 = min(corner2, corner_cap2(path, e, start, end))
         while other < last and path.way[other + 1] < end:
             other += 1
             cap2, ease = min(cap2, path.cap2[other]), min(ease, path.ease[other])

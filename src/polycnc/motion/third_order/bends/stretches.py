@@ -39,6 +39,7 @@ class Stretches(NamedTuple):
         cap2: Largest square of the speed, m.
         step2: That at the corner where it begins, by how much velocities may change there, m; infinite for none.
         spread2: That by how much they may while the shorter one of the two rows lasts, m.
+        left2: That by the limits of axes that the program sets, m; infinite for none.
         ease: Part of acceleration and jerk that the program lets the axes use, m.
         row: Numbers of their rows, m.
         rotary: 1 for a rotary axis, n.
@@ -55,6 +56,7 @@ class Stretches(NamedTuple):
     cap2: Floats
     step2: Floats
     spread2: Floats
+    left2: Floats
     ease: Floats
     row: Ints
     rotary: Floats

@@ -105,6 +105,7 @@ def _room(count: int, n: int) -> Stretches:
         cap2=numbers(count),
         step2=numbers(count),
         spread2=numbers(count),
+        left2=numbers(count),
         ease=numbers(count),
         row=whole(count),
         rotary=numbers(n),

@@ -389,6 +389,7 @@ def put_stretch(
         contexts[record + ContextRecord.TURN_TOLERANCE],
     )
     path.ease[e], path.step2[e], path.spread2[e] = lead.row.ease, inf, inf
+    path.left2[e] = square(lead.row.top)
     if turns == 0.0:
         turns = left_swing(contexts, record, lead.row.off, lead.row.swung)
     path.tolerance[e], path.turn_tolerance[e] = tolerance, turns
