@@ -91,3 +91,14 @@ def test_where_the_program_stands_the_axes_rest_as_before(name: str) -> None:
         nearest = int(corner.argmin())
         assert corner[nearest] < PULL * 1e-6
         assert np.abs(places[nearest + 1] - places[nearest]).max() <= PULL * 1e-6
+
+
+@pytest.mark.parametrize("mode", ["BRISK", "DRIVE"])
+@pytest.mark.parametrize("off", [0.069, 0.073])
+def test_where_it_is_too_late_to_come_down_to_the_bend_behind_an_arc_the_axes_rest(
+    mode: str, off: float
+) -> None:
+    text = f"{mode} G64\nG3 X-0.333 Y3.483 CR=1.949 F20000\nG3 X-0.760 Y7.473 CR=5.831 F6000\nM30\n"
+    _, places = run(text, off)
+    assert np.abs(np.diff(places, 2, axis=0)).max() <= PULL * 1e-6 * 1.002
+    assert places[-1] == pytest.approx([-0.76, 7.473, 0.0])

@@ -9,7 +9,7 @@ from polycnc.mainrun.motion.follower import Follower
 from polycnc.mainrun.motion.law_run import State
 from polycnc.mainrun.motion.piece_motion import NO_WAYS, AxesMotion, Motion, PathMotion
 from polycnc.mainrun.motion.speed import FREE, Calm
-from polycnc.motion.kernels.columns import UNEVEN_FORMS, PieceRecord
+from polycnc.motion.kernels.columns import PieceRecord
 
 if TYPE_CHECKING:
     from array import array
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 SAME_MM = 1e-6
 #: Squared speed below which the axes stand, (mm/s)².
 REST2 = 1e-9
+#: By so much the squared speed may differ from what the look-ahead allows where the axes brake along a curve.
+LITTLE = 2e-3
 
 
 class ByPieces:
@@ -164,14 +166,12 @@ class ByPieces:
         is_beside = dist(piece.at(here / record[PieceRecord.LENGTH]), motion.machine(time)) > SAME_MM
         if is_beside or preprocessing.queue.passes_corner(piece, record):
             return None
-        left = record[PieceRecord.LENGTH] - here
-        reach2 = preprocessing.reach2 + 2.0 * record[PieceRecord.PULL] * left
-        if record[PieceRecord.FORM] not in UNEVEN_FORMS and speed * speed > reach2 + REST2:
-            return None
-        if self.window > 0.0:
-            self._follower.exchange(piece, record[PieceRecord.LENGTH], done - here)
         other = PathMotion(
             piece, record, time, speed * speed, preprocessing.reach2, cap2, self.window, done=here
         )
+        if other.end2 > (1.0 + LITTLE) * max(preprocessing.reach2, other.coasting2) + REST2:
+            return None
+        if self.window > 0.0:
+            self._follower.exchange(piece, record[PieceRecord.LENGTH], done - here)
         self.lead(other)
         return other
