@@ -110,15 +110,10 @@ class RowLayer:
         self, beside: list[Parallel], chunk: Chunk, row: int, bounds: Bounds
     ) -> tuple[list[Parallel], bool]:
         """Behind a row, the functions beside blocks that go on, and whether one outlasts a block that ends there."""
-        open_yet: list[Parallel] = []
-        outlasts, number = False, chunk.first + row
-        for entry in beside:
-            begun = entry._replace(pieces=len(self._buffer)) if entry.row == number else entry
-            if begun.last > number:
-                open_yet.append(begun)
-            else:
-                outlasts = outlasts or self._least_seconds(begun, chunk, bounds) < begun.seconds
-        return open_yet, outlasts
+        number = chunk.first + row
+        open_yet = [entry for entry in beside if entry.last > number]
+        ended = [entry for entry in beside if entry.last <= number]
+        return open_yet, any(self._least_seconds(entry, chunk, bounds) < entry.seconds for entry in ended)
 
     def _least_seconds(self, entry: Parallel, chunk: Chunk, bounds: Bounds) -> float:
         """The least time of the block of a function."""
@@ -131,7 +126,7 @@ class RowLayer:
             told = self._toolpath.contexts, self._buffer.tables, self.real, self._uses
             block = ChunkRows(rows, chunk.curves, first, bounds.enters, *told)
             seconds = block.least_seconds(entry.row + 1 - first, entry.last - first, self._axes)
-        return self._buffer.least_seconds(entry.pieces) if seconds is None else seconds
+        return self._buffer.least_seconds(entry.row) if seconds is None else seconds
 
     def _turn(self, turn: Turn, chunk: Chunk, row: int, called: float) -> None:
         """The rotary axis turns at the pole."""
