@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Context, Toolpath
     from polycnc.toolpath.table import Chunk
 
+    Enters = Mapping[int, Sequence[float]]
     _TakesRows = Callable[[Rows, int, array[float], int, array[float], Limits, State, bool], None]
 
 #: Pieces that the buffer takes at first, and pieces that it takes before it is looked at: twice as many each time that
@@ -205,16 +206,16 @@ class Planner:
         bounds = self._real.bounds(chunk, self._toolpath.contexts)
         feed = bounds.paced(feed)
         curves = _taps_as_overridden(chunk) if self._settings.taps_overridden else chunk.curves
-        others = chunk.context, feed, chunk.end, chunk.curve, stops, *bounds.shares
+        whole = Rows(chunk.kind, chunk.context, feed, chunk.end, chunk.curve, stops, *bounds.shares)
         switches = self._switches(chunk) if self._uses.differ else {}
         rests = {number - chunk.first for number in self._rests} | self._rests_of(chunk)
         self._rests.clear()
         beside = {entry.last + 1 - chunk.first for entry in self._waits.parallel if entry.last >= chunk.first}
         row = 0
         for edge in (*sorted({*bounds.enters, *bounds.legs, *switches, *rests, *beside}), len(chunk)):
-            self._lay(Rows(chunk.kind[:edge], *others), row, curves, chunk.first)
+            self._lay(whole._replace(kind=chunk.kind[:edge]), row, curves, chunk.first)
             row = edge
-            outlasting = self._outlasting(chunk.first + edge) if edge in beside else []
+            outlasting = self._outlasting(chunk, edge, whole, bounds.enters) if edge in beside else []
             if outlasting or edge in rests:
                 self._rest()
                 self._state.run.overlap = self._state.run.rapid_overlap = 0.0
@@ -238,16 +239,24 @@ class Planner:
         rests, first, end = self._toolpath.rests, chunk.first, chunk.first + len(chunk)
         return {row - first for row in rests[bisect_left(rests, first) : bisect_left(rests, end)]}
 
-    def _outlasting(self, row: int) -> list[Parallel]:
+    def _outlasting(self, chunk: Chunk, edge: int, rows: Rows, enters: Enters) -> list[Parallel]:
         """The functions that outlast the motion of the block in front of a row: the axes rest at its end."""
-        entries = [entry for entry in self._waits.parallel if entry.last + 1 == row]
-        return [entry for entry in entries if self._least_seconds(entry.row) < entry.seconds]
+        entries = [entry for entry in self._waits.parallel if entry.last + 1 == chunk.first + edge]
+        return [entry for entry in entries if self._least_seconds(entry, chunk, rows, enters) < entry.seconds]
 
-    def _least_seconds(self, row: int) -> float:
-        """The least time of all that is laid from a row on."""
-        if self._runs is not None and self._runs.is_open:
-            return self._runs.least_seconds(row)
-        return least_seconds(self._pieces, self._piece_of(row), self._state.run.pieces, self._width)
+    def _least_seconds(self, entry: Parallel, chunk: Chunk, rows: Rows, enters: Enters) -> float:
+        """The least time of the block of a function."""
+        seconds, first = None, chunk.first
+        if self._runs is not None:
+            from polycnc.motion.third_order.laying.least import ChunkRows
+
+            told = self._toolpath.contexts, self._tables, self._real, self._uses
+            block = ChunkRows(rows, chunk.curves, first, enters, *told)
+            seconds = block.least_seconds(entry.row + 1 - first, entry.last - first, self._axes)
+        if seconds is not None:
+            return seconds
+        piece, end = self._piece_of(entry.row), self._state.run.pieces
+        return least_seconds(self._pieces, piece, end, self._width)
 
     def _averages(self, entry: Parallel) -> float:
         """Seconds in which the averages of a run come to rest beside a function whose block does not begin the run.

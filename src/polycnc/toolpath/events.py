@@ -245,7 +245,7 @@ class Deed(Event):
     Attributes:
         what: Its word.
         number: Of the action, where it has one.
-        do: What happens.
+        do: What happens; None for nothing that the path does not tell already.
         is_silent: Its block is none of those that do something on the machine.
         stands: The axes stand for it all the same.
         awaits: Nothing follows while this says so; None where it goes on at once.
@@ -255,7 +255,7 @@ class Deed(Event):
     type: ClassVar[str] = "action"
     what: str
     number: int | None
-    do: Callable[[], None]
+    do: Callable[[], None] | None
     is_silent: bool = True
     awaits: Callable[[], bool] | None = None
     places: tuple[tuple[int, float], ...] = ()

@@ -156,3 +156,25 @@ def test_what_stands_waits_for_no_function_beside_the_motion(tmp_path: Path) -> 
     text = "O1\nG91 G94 F3000\nG1 X5. M8 S3000\nX5.\nM30\n"
     for control in ("fanuc-m", "meldas-m", "syntec-mill"):
         assert same_time(text, control, file) < BESIDE[8] + 0.3
+
+
+#: Blocks that a function may outlast or not, by how fast what comes before them, or a law, lets them be.
+NEARLY = {
+    "arc by a law": ("syntec-mill", "F3000\nG3 X0.5 R0.5 M8\nG1 Y1.\nM30\n"),
+    "rounded by a law": ("sinumerik-840d", "G641 ADIS=0.5 SOFT F3000\nG1 Y1 G91\nX1 M8\nX5\nM30\n"),
+    "planned ahead": ("fanuc-m", "G05.1 Q1\nF8000\nG1 X20.\nG3 Y0.5 R0.5 M8\nG1 X-0.3\nM30\n"),
+    "behind a cut line": ("fanuc-m", "F8000\nG1 X20.\nG3 Y0.5 R0.5 M8\nX-0.3\nM30\n"),
+    "lines beside arcs": (
+        "meldas-m",
+        "F6000\nM98 P2 L3\nM30\nO2\nG91 G1 X10. Y5. M8\nG2 X4. R2.\nM99\n",
+    ),
+}
+
+
+@pytest.mark.parametrize("seconds", [0.005, 0.011, 0.02, 0.04, 0.06, 0.08, 0.1, 0.2])
+@pytest.mark.parametrize("kind", NEARLY)
+def test_plan_and_main_run_find_alike_what_outlasts_a_block(
+    tmp_path: Path, kind: str, seconds: float
+) -> None:
+    control, text = NEARLY[kind]
+    same_time(text, control, machine(tmp_path, "mill3", {8: seconds}))

@@ -374,7 +374,7 @@ class Execution:
             self.context = item.context
             self._machinery.perform(item)
             self._stands = item.stands
-            self._acted = self._acted or isinstance(item.event, Deed)
+            self._acted |= isinstance(item.event, Deed) and item.event.do is not None
             self._awaits = item.event.awaits if isinstance(item.event, Deed) else None
             if self._machinery.busy:
                 self._look_ahead()

@@ -163,7 +163,8 @@ class Machinery:
             return
         self._observer.performs(self._number, event)
         if isinstance(event, Deed):
-            event.do()
+            if event.do is not None:
+                event.do()
             return
         if self.keeps is not None:
             self.keeps(happening)

@@ -107,9 +107,12 @@ class PieceBuffer:
         self._rested = self._rested and not is_open
         return is_open
 
-    def least_seconds(self, behind: int) -> float:
-        """The least time of the pieces ahead, but for so many of them in front."""
-        return least_seconds(self._records, self._taken + behind, self.state.run.pieces, self._width)
+    def least_seconds(self, row: int) -> float:
+        """The least time of the pieces ahead that belong to a row or to one behind it."""
+        piece = self.state.run.pieces
+        while piece > self._taken and self._row_of(piece - 1) >= row:
+            piece -= 1
+        return least_seconds(self._records, piece, self.state.run.pieces, self._width)
 
     def note_rest(self) -> bool:
         """Whether the axes rest before the next row for what is none, such as an auxiliary function; asked once."""

@@ -43,7 +43,7 @@ from polycnc.motion.kernels.columns import (
     PieceRecord,
 )
 from polycnc.motion.limits import ContextTables
-from polycnc.motion.standing.waits import Parallel, Waits
+from polycnc.motion.standing.waits import Waits
 from polycnc.motion.time_constants import uses_of
 from polycnc.motion.transformed import RealAxes
 from polycnc.toolpath import Context, Kind, Toolpath
@@ -448,19 +448,10 @@ class Preprocessing:
                 self.end_in_rest()
             else:
                 self._rows.lay(chunk, row, bounds)
-            beside = self._rest_behind(beside, number)
-        return True
-
-    def _rest_behind(self, beside: list[Parallel], row: int) -> list[Parallel]:
-        """The axes rest behind a block that a function beside it outlasts; the functions whose block goes on."""
-        open_yet = []
-        for entry in beside:
-            begun = entry._replace(pieces=len(self._buffer)) if entry.row == row else entry
-            if begun.last > row:
-                open_yet.append(begun)
-            elif self._buffer.least_seconds(begun.pieces) < begun.seconds:
+            beside, outlasts = self._rows.go_on_beside(beside, chunk, row, bounds)
+            if outlasts:  # the axes rest behind a block that a function beside it outlasts
                 self.end_in_rest()
-        return open_yet
+        return True
 
     def _take_over(self) -> None:
         """An axis that another channel has moved since is where that one has left it."""

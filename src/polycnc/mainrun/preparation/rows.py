@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from polycnc.mainrun.preparation.queue import Queue
     from polycnc.motion.demand import Bounds
     from polycnc.motion.pole import Turn
+    from polycnc.motion.standing.waits import Parallel
     from polycnc.motion.time_constants import Uses
     from polycnc.motion.transformed import RealAxes
     from polycnc.toolpath import Toolpath
@@ -69,7 +70,7 @@ class RowLayer:
         self._uses: Uses
         self.facing = -1
         self.context = Context()
-        self.skips = self._by_law = False
+        self.skips = self._by_law = self._has_laws = False
 
     def use(self, real: RealAxes, settings: MotionSettings, uses: Uses) -> None:
         """Say what leads the axes, and how the control does it."""
@@ -104,6 +105,28 @@ class RowLayer:
                 self._turn(leg.turn, chunk, row, called - 0.5 / (len(legs) + 1))
             self._lay_row(chunk, row, leg.at_feed(feed), leg.curves, called)
             self._buffer.end_in_rest()
+
+    def go_on_beside(
+        self, beside: list[Parallel], chunk: Chunk, row: int, bounds: Bounds
+    ) -> tuple[list[Parallel], bool]:
+        """Behind a row, the functions beside blocks that go on, and whether one outlasts a block that ends there."""
+        number = chunk.first + row
+        open_yet = [entry for entry in beside if entry.last > number]
+        ended = [entry for entry in beside if entry.last <= number]
+        return open_yet, any(self._least_seconds(entry, chunk, bounds) < entry.seconds for entry in ended)
+
+    def _least_seconds(self, entry: Parallel, chunk: Chunk, bounds: Bounds) -> float:
+        """The least time of the block of a function."""
+        seconds, first = None, chunk.first
+        if self._has_laws:
+            from polycnc.motion.third_order.laying.least import ChunkRows
+
+            feed, shares = bounds.paced(chunk.feed), bounds.shares
+            rows = Rows(chunk.kind, chunk.context, feed, chunk.end, chunk.curve, NO_STOPS, *shares)
+            told = self._toolpath.contexts, self._buffer.tables, self.real, self._uses
+            block = ChunkRows(rows, chunk.curves, first, bounds.enters, *told)
+            seconds = block.least_seconds(entry.row + 1 - first, entry.last - first, self._axes)
+        return self._buffer.least_seconds(entry.row) if seconds is None else seconds
 
     def _turn(self, turn: Turn, chunk: Chunk, row: int, called: float) -> None:
         """The rotary axis turns at the pole."""
@@ -140,7 +163,7 @@ class RowLayer:
         by_law = goes_by_law(kind, record, buffer.contexts, limits)
         if by_law is not self._by_law:  # the axes rest where a law begins to lead, or ends
             buffer.end_in_rest()
-        self._by_law = by_law
+        self._by_law, self._has_laws = by_law, self._has_laws or by_law
         before, rests = Before.of(buffer.state), buffer.note_rest()
         prepared = PreparedRow(
             rows,

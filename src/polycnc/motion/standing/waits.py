@@ -46,16 +46,12 @@ STRAIGHT = frozenset((Kind.RAPID, Kind.FEED, Kind.REF))
 
 
 class Parallel(NamedTuple):
-    """An auxiliary function that runs beside the motion of its block, the rows `row` to `last`.
-
-    `pieces` lie ahead of the axes in front of its block, in the main run.
-    """
+    """An auxiliary function that runs beside the motion of its block, the rows `row` to `last`."""
 
     row: int
     last: int
     context: int
     seconds: float
-    pieces: int = 0
 
 
 def least_seconds(pieces: Sequence[float], first: int, last: int, width: int) -> float:

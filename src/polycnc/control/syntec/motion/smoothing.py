@@ -187,12 +187,8 @@ def _switch(
     state.tolerance, state.fits, state.turns = tolerance, fits, turns
     state.leaves_points, state.filters = leaves_points and tolerance > 0.0, filters
     PathModeState.of(channel).contour_control = tolerance > 0.0
-    channel.event(Deed(code, None, _nothing, is_silent=False))
+    channel.event(Deed(code, None, None, is_silent=False))  # the planner knows the tolerance from the rows
     channel.context_changed()
-
-
-def _nothing() -> None:
-    """The planner knows the tolerance from the rows."""
 
 
 def high_precision(channel: SyntecChannel, words: Words) -> None:

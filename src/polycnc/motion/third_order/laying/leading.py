@@ -5,7 +5,6 @@ from __future__ import annotations
 from array import array
 from bisect import bisect_left, bisect_right
 from collections import deque
-from math import inf, sqrt
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING, cast
@@ -126,14 +125,6 @@ class LawRuns:
         """Whether the run, as far as it is laid, is one straight row."""
         laid = self.room.laid
         return laid.rows == 1 and laid.stretches == 1 and self._planner is None
-
-    def least_seconds(self, row: int) -> float:
-        """The least time of the run from a row on, at its highest speeds; infinite if that is no longer in the room."""
-        path, count = self.room.path, self.room.laid.stretches
-        first = bisect_left(path.row, row, 0, count)
-        if first == 0 and self._planner is not None:
-            return inf
-        return sum((path.way[e + 1] - path.way[e]) / sqrt(path.cap2[e]) for e in range(first, count))
 
     def end(self, limits: Limits) -> None:
         """The run is over: the rest of its windows are settled."""
