@@ -15,10 +15,13 @@ from operator import mul
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
+from polycnc.motion.kernels.columns import FACTOR
+from polycnc.toolpath.kinds import CURVE_WIDTH, Kind
 from polycnc.toolpath.modes import FeedMode
 from polycnc.transformation.orientation.linkage import STANDS_MM
 
 if TYPE_CHECKING:
+    from array import array
     from collections.abc import Sequence
 
     from polycnc.machine.model import Axis
@@ -26,6 +29,7 @@ if TYPE_CHECKING:
     from polycnc.toolpath import Context
     from polycnc.toolpath.context import Pace
     from polycnc.toolpath.row_path import Path
+    from polycnc.toolpath.table import Chunk
     from polycnc.transformation.contract import Transformation
 
 #: Parts of a length up to which a degree is still a millimetre: on a radius of 57.296 mm, as programs write it.
@@ -315,3 +319,12 @@ def following_top(context: Context, path: Path, length: float, *, rapid: bool) -
         ways = (sum(slopes[axis][j] * turn for j, turn in turned.items()) for axis in made)
         fastest = max(fastest, hypot(*ways))
     return pace.following / fastest if fastest > 0.0 else inf
+
+
+def taps_as_overridden(chunk: Chunk) -> array[float]:
+    """Curve parameters of a chunk where the feed override acts on taps: at 100 % they come out as they go in."""
+    curves = chunk.curves[:]
+    for kind, place in zip(chunk.kind, chunk.curve, strict=True):
+        if kind == Kind.TAP and place >= 0:
+            curves[place * CURVE_WIDTH + FACTOR] = 1.0
+    return curves

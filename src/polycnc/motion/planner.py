@@ -14,8 +14,9 @@ from bisect import bisect_left
 
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.compiled import kernels, plain
-from polycnc.motion.kernels.columns import FACTOR, PLACES, Form, PieceRecord, Rows, new_state, piece_width
+from polycnc.motion.kernels.columns import PLACES, Form, PieceRecord, Rows, new_state, piece_width
 from polycnc.motion.limits import ContextTables, averages, axis_rapids, is_bent_by_way
+from polycnc.motion.pace import taps_as_overridden
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.standing.beside import Awaits, Beside
 from polycnc.motion.standing.waits import Waits, least_seconds
@@ -24,7 +25,6 @@ from polycnc.motion.time_constants import Use, use_of, uses_of
 from polycnc.motion.times import Plan, Times, ToolTimes
 from polycnc.motion.transformed import RealAxes
 from polycnc.toolpath import Kind
-from polycnc.toolpath.kinds import CURVE_WIDTH
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -205,7 +205,7 @@ class Planner:
         feed = chunk.feed if self._feed_profile is None else self._feed_profile(chunk)
         bounds = self._real.bounds(chunk, self._toolpath.contexts)
         feed = bounds.paced(feed)
-        curves = _taps_as_overridden(chunk) if self._settings.taps_overridden else chunk.curves
+        curves = taps_as_overridden(chunk) if self._settings.taps_overridden else chunk.curves
         whole = Rows(chunk.kind, chunk.context, feed, chunk.end, chunk.curve, stops, *bounds.shares)
         switches = self._switches(chunk) if self._uses.differ else {}
         rests = {number - chunk.first for number in self._rests} | self._rests_of(chunk)
@@ -324,10 +324,7 @@ class Planner:
     def _lay(self, rows: Rows, row: int, curves: array[float], number: int) -> None:
         """Lay rows out from one on."""
         contexts = self._tables.of(self._use)
-        if self.on_rows is not None:
-            runs, after = self._runs, self._use is Use.AFTER
-            state = self._state if runs is None or not runs.is_open else runs.room.lead
-            self.on_rows(rows, row, curves, number, contexts, self._limits, state, after)
+        self._tell(rows, row, curves, number)
         if self._runs is not None:
             self._lay_runs(self._runs, rows, row, curves, number, contexts)
             return
@@ -338,6 +335,13 @@ class Planner:
             self._laid = number + row
             if row < len(rows.kind):
                 self._make_room()
+
+    def _tell(self, rows: Rows, row: int, curves: array[float], number: int) -> None:
+        """Rows from one on will be laid out."""
+        if self.on_rows is not None:
+            runs, contexts, after = self._runs, self._tables.of(self._use), self._use is Use.AFTER
+            state = self._state if runs is None or not runs.is_open else runs.room.lead
+            self.on_rows(rows, row, curves, number, contexts, self._limits, state, after)
 
     def _lay_runs(
         self, runs: LawRuns, rows: Rows, row: int, curves: array[float], number: int, contexts: array[float]
@@ -398,9 +402,11 @@ class Planner:
         """Lay the legs of a row, at rest before each of them; between two of them the rotary axis turns."""
         number, first = chunk.first + row, chunk.context[row]
         for leg in legs:
+            rows = leg.at_feed(feed)
             if leg.turn is not None:
+                self._tell(rows, 0, leg.curves, number)
                 self._turn(leg.turn, first, chunk.kind[row], number)
-            self._lay(leg.at_feed(feed), 0, leg.curves, number)
+            self._lay(rows, 0, leg.curves, number)
             self._state.run.stop = 1.0
 
     def _turn(self, turn: Turn, context: int, kind: int, number: int) -> None:
@@ -587,12 +593,3 @@ def _station(context: Context) -> tuple[object, ...]:
     """What the axes stand still for when it changes between two moves."""
     spindle = (context.spindle, context.spindle_rpm, context.spindle_direction, context.surface_speed)
     return (context.tool, context.tool_name, *spindle)
-
-
-def _taps_as_overridden(chunk: Chunk) -> array[float]:
-    """Curve parameters of a chunk where the feed override acts on taps: at 100 % they come out as they go in."""
-    curves = chunk.curves[:]
-    for kind, place in zip(chunk.kind, chunk.curve, strict=True):
-        if kind == Kind.TAP and place >= 0:
-            curves[place * CURVE_WIDTH + FACTOR] = 1.0
-    return curves
