@@ -12,7 +12,7 @@ same chunk by chunk while the toolpath grows.
     time        explain (which limit held, for how long)
     motion      law (phases of constant jerk over time), averaging (limited jerk: from there to the axes)
     sampling/   where the axes are at even times
-    third_order/  limited jerk without averages: a bent path and a law along it (SINUMERIK, SOFT)
+    third_order/  limited jerk without averages: a bent path and a law along it (SOFT, look-ahead)
 """
 
 from polycnc.motion.plan import plan
