@@ -28,7 +28,7 @@ from polycnc.channel.waits import (
     PreprocessingStop,
     Wait,
     Why,
-)  # fmt: skip
+)
 from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.typing import TYPE_CHECKING, ClassVar, Generic

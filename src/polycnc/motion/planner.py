@@ -523,7 +523,6 @@ class Planner:
             if 2 * forgotten >= len(self._rows):  # those behind them move up
                 del self._rows[:forgotten]
                 self._first_row = needed
-                self._row_waits = {row: waits for row, waits in self._row_waits.items() if row >= needed}
 
     # ---- rows and totals
     # -------------------------------------------------------------------------------------------
@@ -547,7 +546,7 @@ class Planner:
         row = min(row, self._next_row - 1)
         self._reach(row + 1)
         self._rows[2 * (row - self._first_row)] += seconds
-        if share != "dwell_s":  # a dwell is what its row is for
+        if self._keep_rows and share != "dwell_s":  # a dwell is what its row is for
             self._row_waits[row] = self._row_waits.get(row, 0.0) + seconds
         shares = self._waited.setdefault(context, {})
         shares[share] = shares.get(share, 0.0) + seconds
@@ -585,7 +584,7 @@ class Planner:
             total += times
         used = tuple(tool for tool in tools.values() if tool.tool or tool.name or tool.times.total_s > 0.0)
         without_feed, without_spindle = self._state.run.without_feed, self._state.run.standing_spindle
-        rows = self._rows[::2], self._rows[1::2], self._row_waits if self._keep_rows else {}
+        rows = self._rows[::2], self._rows[1::2], self._row_waits
         return Plan(total, used, *rows, without_feed, without_spindle)
 
 

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from polycnc.machine import parse_setup
-from polycnc.mainrun import State
-from polycnc.session import open_session
-from tests.mainrun.support import power_on, recorded
+from tests.mainrun.motion.both_times import executed, planned
 
+SINUMERIK = "sinumerik-840d"
 HEAD = "G90 G64 F3000 {mode}\nG1 X10 Y1\n"
 #: What follows, and the same with the places as they were counted before.
 COUNTED = {
@@ -19,32 +17,13 @@ COUNTED = {
 }
 
 
-def planned(text: str, machine: str = "mill3", setup: dict[str, object] | None = None) -> float:
-    session = open_session(text, control="sinumerik-840d", machine=machine, setup=setup or {}, keep=False)
-    sampler = session.sample(0.01, lambda _: None)
-    result = session.run()
-    assert result.ok, result.alarms
-    total_s = result.plan.total_s
-    sampler.close()
-    assert sampler.time == pytest.approx(total_s, abs=1e-6)
-    return total_s
-
-
-def executed(text: str, machine: str = "mill3", setup: dict[str, object] | None = None) -> float:
-    virtual = power_on(text, "sinumerik-840d", machine=machine, setup=parse_setup(setup or {}))
-    records, start = recorded(virtual), virtual.time
-    virtual.cycle_start()
-    assert virtual.run(limit_s=1000.0) is State.READY
-    return next(record.time for record in reversed(records) if record.what == "state") - start
-
-
 @pytest.mark.parametrize("mode", ["BRISK", "SOFT"])
 @pytest.mark.parametrize("case", COUNTED)
 def test_a_new_count_is_no_way(case: str, mode: str) -> None:
     text, same = (f"{HEAD.format(mode=mode)}{rest}M30\n" for rest in COUNTED[case])
-    total_s = planned(text)
-    assert total_s == pytest.approx(planned(same), abs=5e-5)
-    assert executed(text) == pytest.approx(total_s, abs=5e-4)
+    total_s = planned(text, SINUMERIK, "mill3")
+    assert total_s == pytest.approx(planned(same, SINUMERIK, "mill3"), abs=5e-5)
+    assert executed(text, SINUMERIK, "mill3") == pytest.approx(total_s, abs=5e-4)
 
 
 @pytest.mark.parametrize("name", ["AXCTSWE", "AXCTSWAP"])
@@ -53,6 +32,6 @@ def test_a_container_that_turns_moves_no_axis(name: str) -> None:
     setup: dict[str, object] = {"parameters": {"12701": ["Z1", "V1"], "41700[0]": 1}}
     text = f"G90 G1 Z10 V20 F1000\n{name}(CT1)\nG91 G1 Z5\nM30\n"
     same = "G90 G1 Z10 V20 F1000\nSTOPRE\nG91 G1 Z5\nM30\n"
-    total_s = planned(text, "mill5-xyzvw", setup)
-    assert total_s == pytest.approx(planned(same, "mill5-xyzvw", setup), abs=1e-9)
-    assert executed(text, "mill5-xyzvw", setup) == pytest.approx(total_s, abs=5e-4)
+    total_s = planned(text, SINUMERIK, "mill5-xyzvw", setup)
+    assert total_s == pytest.approx(planned(same, SINUMERIK, "mill5-xyzvw", setup), abs=1e-9)
+    assert executed(text, SINUMERIK, "mill5-xyzvw", setup) == pytest.approx(total_s, abs=5e-4)

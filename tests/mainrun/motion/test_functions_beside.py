@@ -7,10 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from polycnc.machine import parse_setup
-from polycnc.mainrun import State
-from polycnc.session import open_session
-from tests.mainrun.support import power_on, recorded
+from tests.mainrun.motion.both_times import executed, planned
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -32,31 +29,10 @@ def machine(folder: Path, base: str, seconds: Mapping[int, float] = BESIDE) -> s
     return str(file)
 
 
-def planned(text: str, control: str, file: str, setup: dict[str, object]) -> float:
-    """The planned time of a program, with which its samples end as well."""
-    session = open_session(text.encode(), control=control, machine=file, setup=setup, keep=False)
-    sampler = session.sample(0.01, lambda _: None)
-    result = session.run()
-    assert result.ok, result.alarms
-    total_s = result.plan.total_s
-    sampler.close()
-    assert sampler.time == pytest.approx(total_s, abs=1e-6)
-    return total_s
-
-
-def executed(text: str, control: str, file: str, setup: dict[str, object]) -> float:
-    """Seconds of the main run."""
-    virtual = power_on(text, control, machine=file, setup=parse_setup(setup))
-    records, start = recorded(virtual), virtual.time
-    virtual.cycle_start()
-    assert virtual.run(limit_s=1000.0) is State.READY
-    return next(record.time for record in reversed(records) if record.what == "state") - start
-
-
 def same_time(text: str, control: str, file: str, setup: dict[str, object] | None = None) -> float:
     """The time of a program, which is that of its main run."""
-    total_s = planned(text, control, file, setup or {})
-    assert executed(text, control, file, setup or {}) == pytest.approx(total_s, abs=5e-4)
+    total_s = planned(text, control, file, setup)
+    assert executed(text, control, file, setup) == pytest.approx(total_s, abs=5e-4)
     return total_s
 
 
