@@ -330,7 +330,7 @@ def test_a_closed_stream_takes_all(tmp_path: Path, closed: str) -> None:
 
 
 CHECKING = """
-import sys
+import os, signal, sys
 from polycnc.cli import main
 from polycnc.cli.commands import check
 check._cores = lambda: 2
@@ -340,7 +340,12 @@ def seldom(opening, file):
         import time; time.sleep(60)
     return check._Checked([])
 check._one_checked = seldom
-main(["check", "--control", "fanuc-m", *(f"{each}.nc" for each in range(40))])
+ends = check._kill_where
+def interrupted(*words):
+    os.kill(os.getpid(), signal.{number})  # once more, while it ends its workers
+    ends(*words)
+check._kill_where = interrupted
+main(["check", "--control", "fanuc-m", *(f"{{each}}.nc" for each in range(40))])
 """
 
 
@@ -348,7 +353,9 @@ main(["check", "--control", "fanuc-m", *(f"{each}.nc" for each in range(40))])
 @pytest.mark.skipif(sys.platform == "win32", reason="has other signals")
 def test_whoever_interrupts_a_check_ends_its_workers_at_once(tmp_path: Path, number: str) -> None:
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "start_new_session": True}
-    with subprocess.Popen([sys.executable, "-c", CHECKING], cwd=tmp_path, **pipes) as process:  # type: ignore[call-overload]
+    with subprocess.Popen(
+        [sys.executable, "-c", CHECKING.format(number=number)], cwd=tmp_path, **pipes
+    ) as process:  # type: ignore[call-overload]
         assert process.stdout.readline().endswith(b".nc\n")
         for _ in range(3):  # of a terminal every process of the group gets them
             with suppress(ProcessLookupError):

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
+from time import monotonic
 
 from polycnc.cli import plain
 from polycnc.cli.console import fail, note
 from polycnc.cli.progress import watched
 from polycnc.cli.usage import language_of, translated
-from polycnc.deferred.contexts import contextmanager, suppress
+from polycnc.deferred.contexts import contextmanager
 from polycnc.deferred.typing import TYPE_CHECKING, NoReturn
 from polycnc.messages import text
 from polycnc.messages.catalogue import set_language
@@ -23,6 +25,8 @@ else:
     import _signal as signal  # what the library's own module makes enumerations of, at every start
 
 BAD_USE, INTERRUPTED = 2, 130
+#: So long, in seconds, one interrupt is enough.
+AGAIN_S = 1.0
 #: With this variable of the environment a mistake of polycnc shows all of its way.
 TRACEBACK = "POLYCNC_TRACEBACK"
 #: Libraries that polycnc can do without, and the extra that brings each.
@@ -37,7 +41,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        with _termination_interrupts():
+        with _interrupts():
             status = _run(words)
         sys.stdout.flush()
     except BrokenPipeError:
@@ -47,8 +51,6 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     except SystemExit:  # the answer of the panel's server where its address is taken
         status = BAD_USE
     except KeyboardInterrupt:
-        with suppress(ValueError):  # only the main thread may answer signals
-            signal.signal(signal.SIGINT, signal.SIG_IGN)  # it ends already
         status = INTERRUPTED
     if status == INTERRUPTED:
         note(f"polycnc: {text('cli.interrupted')}")
@@ -56,18 +58,32 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 
 
 @contextmanager
-def _termination_interrupts() -> Iterator[None]:
-    """Who is told to end takes half-written files away first, as where the user interrupts."""
-    ends = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+def _interrupts() -> Iterator[None]:
+    """Who is told to end takes half-written files and other processes away first, however often it is told.
+
+    What tells it again within `AGAIN_S` would break that; later it may be what gets it out of a way that hangs.
+    """
+    ends = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
     # Who has been told to outlive the terminal (nohup) does.
-    before = {each: signal.getsignal(each) for each in ends if signal.getsignal(each) != signal.SIG_IGN}
+    handlers = {each: signal.getsignal(each) for each in ends}
+    before = {each: handler for each, handler in handlers.items() if handler not in (signal.SIG_IGN, None)}
+    heard = [-math.inf]
+
+    def interrupt(_number: int, _frame: object) -> None:
+        if monotonic() > heard[0] + AGAIN_S:
+            heard[0] = monotonic()
+            raise KeyboardInterrupt
+
     try:
         for each in before:
-            signal.signal(each, signal.default_int_handler)
+            signal.signal(each, interrupt)
     except ValueError:  # only the main thread may answer signals
         before = {}
     try:
         yield
+    except KeyboardInterrupt:
+        before = dict.fromkeys(before, signal.SIG_IGN)  # it ends already
+        raise
     finally:
         for each, handler in before.items():
             signal.signal(each, handler)
