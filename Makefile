@@ -83,4 +83,4 @@ features: $(VENV)/.installed-test
 	done
 
 clean:
-	rm -rf src/polycnc/kernels/compiled.* $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf src/polycnc/kernels/compiled.* build $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -66,18 +66,14 @@ def _mathematics(folder: str) -> str:
     return str(library)
 
 
-def link(objects: Sequence[bytes], file: Path) -> None:
-    """Write a shared object, whole or not at all.
+def link(objects: Sequence[Path], file: Path) -> None:
+    """Write a shared object of files with object code, whole or not at all.
 
     Raises:
         OSError: No linker, or no place to write to.
         subprocess.CalledProcessError: The linker refuses.
     """
     with TemporaryDirectory(dir=file.parent) as folder:
-        names = []
-        for i, code in enumerate(objects):
-            names.append(Path(folder, f"{i}.o"))
-            names[-1].write_bytes(code)
         made = Path(folder, file.name)
-        subprocess.run([*_command(), "-shared", "-s", "-o", made, *names, _mathematics(folder)], check=True)
+        subprocess.run([*_command(), "-shared", "-s", "-o", made, *objects, _mathematics(folder)], check=True)
         made.replace(file)

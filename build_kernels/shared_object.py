@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import platform
+from hashlib import sha256
 from importlib import import_module
+from importlib.metadata import version
 from pathlib import Path
 
 from build_kernels.compiler import described, object_code
@@ -22,6 +25,9 @@ MODULES = (
     "polycnc.toolpath.columns.compiled",
     "polycnc.toolpath.compiled",
 )
+
+#: Object code as last made, each in a file named by all it was made of.
+KEPT = Path(__file__).resolve().parents[1] / "build" / "kernels"
 
 
 def libraries() -> list[Library]:
@@ -47,4 +53,33 @@ def make() -> None:
         subprocess.CalledProcessError: The linker refuses.
     """
     about = [(library, described(library)) for library in libraries()]  # before minutes pass
-    link([object_code(library, text) for library, text in about], Path(native.FILE))
+    compiler = _compiler()
+    KEPT.mkdir(parents=True, exist_ok=True)
+    files = [_object_file(library, text, compiler) for library, text in about]
+    link(files, Path(native.FILE))
+    for file in set(KEPT.iterdir()) - set(files):
+        file.unlink(missing_ok=True)
+
+
+def _object_file(library: Library, about: bytes, compiler: bytes) -> Path:
+    """Where the object code of a library is: who changes one kernel does not wait for those of other libraries."""
+    of = [compiler, library.symbol.encode(), bytes([library.inline]), about]
+    file = KEPT / f"{sha256(b' '.join(of)).hexdigest()}.o"
+    if not file.exists():
+        made = file.with_suffix(".new")  # whole or not at all
+        made.write_bytes(object_code(library, about))
+        made.replace(file)
+    return file
+
+
+def _compiler() -> bytes:
+    """What object code depends on beside its sources."""
+    own = [file.read_bytes() for file in sorted(Path(__file__).parent.glob("*.py"))]
+    tools = (
+        platform.system(),
+        platform.machine(),
+        platform.python_version(),
+        version("numba"),
+        version("llvmlite"),
+    )
+    return " ".join(tools).encode() + b"".join(own)

@@ -17,6 +17,8 @@ from polycnc.kernels import native
 if TYPE_CHECKING:
     from build_kernels.hook import KernelHook
 
+    from polycnc.kernels.library import Library
+
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -32,6 +34,33 @@ def test_every_library_of_polycnc_is_compiled() -> None:
 def test_no_two_kernels_have_one_name() -> None:
     names = [name for library in shared_object.libraries() for name in library.names]
     assert len(names) == len(set(names))
+
+
+def test_only_libraries_whose_sources_have_changed_are_compiled_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    compiled: list[str] = []
+    linked: list[list[bytes]] = []
+
+    def code(library: Library, about: bytes) -> bytes:
+        compiled.append(library.name)
+        return about
+
+    about = {library.name: library.name.encode() for library in shared_object.libraries()}
+    monkeypatch.setattr(shared_object, "KEPT", tmp_path / "kept")
+    monkeypatch.setattr(shared_object, "described", lambda library: about[library.name])
+    monkeypatch.setattr(shared_object, "object_code", code)
+    monkeypatch.setattr(
+        shared_object, "link", lambda files, _: linked.append([file.read_bytes() for file in files])
+    )
+    shared_object.make()
+    one, *others = compiled
+    about[one] = b"changed"
+    shared_object.make()
+    shared_object.make()
+    assert compiled == [one, *others, one]
+    assert linked[1:] == [list(about.values())] * 2
+    assert len(list((tmp_path / "kept").iterdir())) == len(about)
 
 
 @pytest.mark.parametrize(("linker_there", "needed"), [("/usr/bin/cc", 1), (None, 2)])
@@ -100,7 +129,7 @@ def test_windows_gives_the_kernels_the_mathematics_that_python_calls(
 
     monkeypatch.setattr(platform, "system", lambda: "Windows")
     monkeypatch.setattr(subprocess, "run", run)
-    linker.link([b""], tmp_path / "compiled.dll")
+    linker.link([tmp_path / "0.o"], tmp_path / "compiled.dll")
     assert [command[3] for command in commands] == ["dlltool", "cc"]
     assert commands[1][-1] == commands[0][-1]  # no `-lm`
     assert declared[:2] == ["LIBRARY", "api-ms-win-crt-math-l1-1-0.dll"]

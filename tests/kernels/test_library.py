@@ -36,8 +36,10 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
     if system_linker() is None:
         pytest.skip("no linker")
-    made = tmp_path_factory.mktemp("kernels") / Path(native.FILE).name
-    link([object_code(library(made), described(library(made)))], made)
+    folder = tmp_path_factory.mktemp("kernels")
+    made, code = folder / Path(native.FILE).name, folder / "sums.o"
+    code.write_bytes(object_code(library(made), described(library(made))))
+    link([code], made)
     return made
 
 
