@@ -102,7 +102,9 @@ def test_h_shows_the_same_help(console: Console, words: tuple[str, ...]) -> None
 
 
 def test_help_comes_in_chinese_too(tmp_path: Path) -> None:
-    process = _polycnc("run", "--help", "--lang", "zh-TW", cwd=tmp_path, stdout=subprocess.PIPE)
+    environment = {**os.environ, "PYTHONIOENCODING": "utf-8"}  # others have no such characters
+    words = ("run", "--help", "--lang", "zh-TW")
+    process = _polycnc(*words, cwd=tmp_path, stdout=subprocess.PIPE, env=environment)
     out, _ = process.communicate(timeout=30)
     assert "加工程式" in out.decode()
 

@@ -188,7 +188,9 @@ DAMAGED = {
     "nothing but zeros": lambda code: bytes(len(code)),
     **{f"cut behind {n}": lambda code, n=n: code[:n] for n in (0, 1, 6, 63, 64, 4096)},
     **{f"{n} bytes missing": lambda code, n=n: code[:-n] for n in (1, 64, 4000)},
-    **{f"zeros behind {n}": lambda code, n=n: code[:n] + bytes(len(code) - n) for n in (6, 40, 64, 512, 4096)},
+    **{
+        f"zeros behind {n}": lambda code, n=n: code[:n] + bytes(len(code) - n) for n in (6, 40, 64, 512, 4096)
+    },
     **{f"{n} zeros at the end": lambda code, n=n: code[:-n] + bytes(n) for n in (64, 1000, 4096, 6000)},
     "a page of zeros": lambda code: code[:4096] + bytes(4096) + code[8192:],
     "another processor": lambda code: code[:18] + b"\xf3\0" + code[20:],

@@ -103,9 +103,15 @@ def _named_error(error: OSError, path: Path) -> OSError:
 
 
 def _stream(file: str | int, path: Path, mode: str) -> IO[Any]:
-    """The stream of a file (by name or number): of bytes, else of text in UTF-8."""
+    """The stream of a file (by name or number): of bytes, else of text in UTF-8.
+
+    Names of files that are not in the encoding of the system have characters that no text can have: these are written
+    with a backslash, as JSON writes them.
+    """
     stream = io.BufferedWriter(_File(file, path), _BUFFERED)
-    return stream if "b" in mode else io.TextIOWrapper(stream, encoding="utf-8", newline="\n")
+    if "b" in mode:
+        return stream
+    return io.TextIOWrapper(stream, encoding="utf-8", errors="backslashreplace", newline="\n")
 
 
 def _nameless(folder: Path) -> tuple[int, str]:

@@ -41,9 +41,9 @@ def load(file: str) -> SharedObject | None:
 def is_whole(file: str) -> bool:
     """Whether a file of ELF has all that its head says, and no page that was never written.
 
-    The loader of the system believes what it reads: it would end the process, or run zeros. A copy that was interrupted,
-    a full disk or a lost power supply leave such files; where each part that they leave out is a page of zeros or the
-    end, all of it is found. Other systems look themselves.
+    The loader of the system believes what it reads: it would end the process, or run zeros. An interrupted copy, a
+    full disk or a lost power supply leave such files: without their end, or with pages of zeros. The loaders of other
+    systems look themselves.
 
     Raises:
         OSError: It cannot be read.
@@ -52,15 +52,14 @@ def is_whole(file: str) -> bool:
         data = opened.read()
     if data[:6] != b"\x7fELF\x02\x01":  # 64 bit, the least significant byte first
         return True
-    begin, each, count = (int.from_bytes(data[at:end], "little") for at, end in ((40, 48), (58, 60), (60, 62)))
+    begin, each, count = (
+        int.from_bytes(data[at:end], "little") for at, end in ((40, 48), (58, 60), (60, 62))
+    )
     end = begin + each * count  # of the table of sections, which stands behind everything
     if len(data) < max(end, _HEAD) or not any(data[end - each : end]):
         return False
     zeros, last = bytes(_PAGE), len(data) // _PAGE * _PAGE
-    for at in range(0, last, _PAGE):
-        if data.startswith(zeros, at):
-            return False
-    return True
+    return not any(data.startswith(zeros, at) for at in range(0, last, _PAGE))
 
 
 def is_wanted() -> bool:
