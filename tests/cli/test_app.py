@@ -6,7 +6,7 @@ import subprocess
 import sys
 import time
 import tomllib
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from threading import Thread
 from typing import TYPE_CHECKING
@@ -22,8 +22,12 @@ from polycnc.motion.compiled import LIBRARY as PLANNING
 from tests.cli.console import BAD, GOOD
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from tests.cli.console import Console
 
+#: A busy machine takes its time, seconds.
+PATIENCE_S = 50.0
 FOREVER = "O1\nN1 #100=#100+1\nGOTO 1\n"
 MANY = "O1\nWHILE [#100 LT 200000] DO1\n#100=#100+1\nG0 X[#100/10]\nEND1\nM30\n"
 
@@ -105,7 +109,7 @@ def test_help_comes_in_chinese_too(tmp_path: Path) -> None:
     environment = {**os.environ, "PYTHONIOENCODING": "utf-8"}  # others have no such characters
     words = ("run", "--help", "--lang", "zh-TW")
     process = _polycnc(*words, cwd=tmp_path, stdout=subprocess.PIPE, env=environment)
-    out, _ = process.communicate(timeout=30)
+    out, _ = process.communicate(timeout=PATIENCE_S)
     assert "加工程式" in out.decode()
 
 
@@ -181,11 +185,11 @@ def test_ctrl_c_ends_a_long_run_with_one_line_and_leaves_no_half_written_file(tm
     (tmp_path / "long.nc").write_text(FOREVER, encoding="utf-8")
     words = ("run", "long.nc", "--control", "fanuc-m", "--trace", "out.jsonl")
     process = _polycnc(*words, cwd=tmp_path, stdout=subprocess.DEVNULL)
-    deadline = time.monotonic() + 30
+    deadline = time.monotonic() + PATIENCE_S
     while not _is_writing(process.pid, tmp_path) and time.monotonic() < deadline:
         time.sleep(0.02)
     process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=30)
+    _, err = process.communicate(timeout=PATIENCE_S)
     assert process.returncode == 130
     assert len(err.splitlines()) == 1
     assert [path.name for path in tmp_path.iterdir()] == ["long.nc"]
@@ -208,7 +212,7 @@ runpy.run_module("polycnc", run_name="__main__", alter_sys=True)
 @pytest.mark.parametrize("name", ["polycnc.cli", "polycnc.cli.app", "polycnc.cli.plain"])
 def test_ctrl_c_while_it_is_loaded_is_no_traceback(tmp_path: Path, name: str) -> None:
     command = [sys.executable, "-c", INTERRUPTED_AT.format(name=name)]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, timeout=30, check=False)
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, timeout=PATIENCE_S, check=False)
     assert (done.returncode, done.stderr) == (130, b"")
 
 
@@ -216,7 +220,7 @@ def test_a_reader_that_goes_away_ends_the_output_quietly(tmp_path: Path) -> None
     process = _polycnc("machines", cwd=tmp_path, stdout=subprocess.PIPE)
     assert process.stdout is not None
     process.stdout.close()
-    _, err = process.communicate(timeout=30)
+    _, err = process.communicate(timeout=PATIENCE_S)
     assert err == b""
     assert process.returncode == 2
 
@@ -254,7 +258,7 @@ def test_a_run_that_is_told_to_end_leaves_no_half_written_file(tmp_path: Path) -
         "out.jsonl",
     ]
     with subprocess.Popen(words, cwd=tmp_path, stderr=subprocess.PIPE, text=True) as run:
-        end = time.monotonic() + 60
+        end = time.monotonic() + PATIENCE_S
         while not _is_writing(run.pid, tmp_path):
             assert run.poll() is None
             assert time.monotonic() < end
@@ -306,7 +310,9 @@ def test_a_process_ends_with_its_status_behind_threads_and_what_waits_for_its_en
     tmp_path: Path, words: list[str], status: int
 ) -> None:
     command = [sys.executable, "-c", LEAVING.format(words=words)]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=30, check=False)
+    done = subprocess.run(
+        command, cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE_S, check=False
+    )
     assert done.returncode == status
     assert done.stdout.splitlines()[-2:] == ["thread", "function"]
     assert done.stderr == ""
@@ -315,7 +321,12 @@ def test_a_process_ends_with_its_status_behind_threads_and_what_waits_for_its_en
 def test_a_mistake_that_shows_its_way_ends_the_process_as_python_does(tmp_path: Path) -> None:
     code = "from polycnc.cli import app, main\ndef fails(words): raise ValueError('here')\napp.main = fails\nmain()"
     done = subprocess.run(
-        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=30, check=False
+        [sys.executable, "-c", code],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE_S,
+        check=False,
     )
     assert done.returncode == 1
     assert done.stderr.splitlines()[-1] == "ValueError: here"
@@ -331,37 +342,66 @@ def test_a_closed_stream_takes_all(tmp_path: Path, closed: str) -> None:
     assert (tmp_path / "a.json").read_text(encoding="utf-8").startswith("{")
 
 
+#: A check whose workers take longer for a file than any test waits.
 CHECKING = """
-import os, signal, sys
+import os, sys, time
 from polycnc.cli import main
 from polycnc.cli.commands import check
 check._cores = lambda: 2
 def seldom(opening, file):
     if file[0] != "0.nc":
-        print(file[0], flush=True)
-        import time; time.sleep(60)
+        print(os.getpid(), flush=True)
+        time.sleep(600)
     return check._Checked([])
 check._one_checked = seldom
 ends = check._kill_where
 def interrupted(*words):
-    os.kill(os.getpid(), signal.{number})  # once more, while it ends its workers
+    for number in sys.argv[1:]:
+        os.kill(os.getpid(), int(number))  # once more, while it ends its workers
     ends(*words)
 check._kill_where = interrupted
-main(["check", "--control", "fanuc-m", *(f"{{each}}.nc" for each in range(40))])
+main(["check", "--control", "fanuc-m", *(f"{each}.nc" for each in range(40))])
 """
 
 
-@pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
-@pytest.mark.skipif(sys.platform == "win32", reason="has other signals")
-def test_whoever_interrupts_a_check_ends_its_workers_at_once(tmp_path: Path, number: str) -> None:
+@contextmanager
+def _checking(folder: Path, *again: int) -> Iterator[tuple[subprocess.Popen[bytes], int]]:
+    """Such a check, and one of its workers; what it sends itself when it ends them."""
+    command = [sys.executable, "-c", CHECKING, *map(str, map(int, again))]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "start_new_session": True}
-    with subprocess.Popen(
-        [sys.executable, "-c", CHECKING.format(number=number)], cwd=tmp_path, **pipes
-    ) as process:  # type: ignore[call-overload]
-        assert process.stdout.readline().endswith(b".nc\n")
+    with subprocess.Popen(command, cwd=folder, **pipes) as process:  # type: ignore[call-overload]
+        try:
+            yield process, int(process.stdout.readline())
+        finally:
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+@pytest.mark.skipif(sys.platform == "win32", reason="has other signals")
+def test_whoever_interrupts_a_check_ends_its_workers_at_once(tmp_path: Path, name: str) -> None:
+    number = getattr(signal, name)
+    with _checking(tmp_path, number) as (process, _):
         for _ in range(3):  # of a terminal every process of the group gets them
             with suppress(ProcessLookupError):
-                os.killpg(process.pid, getattr(signal, number))
-        _, err = process.communicate(timeout=20)  # also where the workers have closed their ends
+                os.killpg(process.pid, number)
+        _, err = process.communicate(timeout=PATIENCE_S)  # also where the workers have closed their ends
         assert err == b"polycnc: interrupted\n"
         assert process.returncode == 130
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="has other signals")
+def test_workers_of_a_check_that_is_killed_end(tmp_path: Path) -> None:
+    with _checking(tmp_path) as (process, _):
+        process.kill()
+        process.communicate(timeout=PATIENCE_S)  # until the workers have closed their ends
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="has other signals")
+def test_a_worker_that_is_killed_ends_the_check_with_one_line(tmp_path: Path) -> None:
+    with _checking(tmp_path) as (process, worker):
+        os.kill(worker, signal.SIGKILL)
+        _, err = process.communicate(timeout=PATIENCE_S)
+        assert err.startswith(b"polycnc: one of the processes of this check has been killed;")
+        assert err.count(b"\n") == 1
+        assert process.returncode == 2

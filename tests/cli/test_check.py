@@ -278,6 +278,24 @@ def test_many_files_are_checked_on_all_cores_in_their_order(
     assert [line[:9] for line in shared.out.splitlines() if line.startswith("part")] == names[::5]
 
 
+@pytest.mark.parametrize("lack", [ImportError, NotImplementedError, PermissionError])
+def test_where_processes_can_share_no_locks_one_checks_all(
+    console: Console, monkeypatch: pytest.MonkeyPatch, lack: type[Exception]
+) -> None:
+    """As where `/dev/shm` cannot be written."""
+
+    def fails(*_: object, **__: object) -> None:
+        raise lack
+
+    monkeypatch.setattr(check, "_cores", lambda: 2)
+    monkeypatch.setattr("concurrent.futures.ProcessPoolExecutor.__init__", fails)
+    names = [f"{i}.nc" for i in range(2 * check.SHARED)]
+    for name in names:
+        console.file(name, BAD if name == "7.nc" else GOOD)
+    said = console("check", *names, *FANUC)
+    assert (said.status, said.err, said.out[:5]) == (1, "", "7.nc:")
+
+
 def test_workers_that_begin_anew_find_the_same(console: Console, monkeypatch: pytest.MonkeyPatch) -> None:
     """As on Windows and macOS: each imports what it needs, and is told what the command has been told."""
     names = [f"part{i:02d}.nc" for i in range(2 * check.SHARED)]
