@@ -342,6 +342,58 @@ def test_a_closed_stream_takes_all(tmp_path: Path, closed: str) -> None:
     assert (tmp_path / "a.json").read_text(encoding="utf-8").startswith("{")
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no such device")
+@pytest.mark.parametrize(
+    ("words", "closed", "status"),
+    [
+        ("run bad.nc --control fanuc-m", "2>/dev/full", 1),
+        ("run bad.nc --control fanuc-m", ">/dev/full 2>&1", 2),
+        ("run missing.nc --control fanuc-m", "2>/dev/full", 2),
+        ("run missing.nc --control fanuc-m", ">/dev/full 2>&1", 2),
+        ("plot bad.nc --control fanuc-m -o bad.svg", "2>/dev/full", 1),
+        ("nonsense", "2>/dev/full", 2),
+        ("features", "2>/dev/full", 0),
+    ],
+)
+def test_where_nobody_can_be_told_the_status_is_the_same(
+    tmp_path: Path, words: str, closed: str, status: int
+) -> None:
+    (tmp_path / "bad.nc").write_text(BAD, encoding="utf-8")
+    command = f"{sys.executable} -m polycnc {words} {closed}"
+    run = subprocess.run(command, shell=True, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stderr) == (status, "")
+
+
+#: Runs what it is given on a terminal of its own, closes that when a bar is shown, and ends with the status. A process
+#: that is copied has no other threads, which the tests may have.
+CLOSING = """
+import os, pty, sys
+from contextlib import suppress
+process, terminal = pty.fork()
+if not process:
+    os.execve(sys.executable, [sys.executable, "-m", "polycnc", *sys.argv[1:]], {**os.environ, "TERM": "xterm"})
+with suppress(OSError):
+    while b"0:0" not in os.read(terminal, 1 << 16):
+        pass
+os.close(terminal)
+sys.exit(os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]))
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="has other terminals")
+@pytest.mark.parametrize("words", ["run 1.nc --trace out.jsonl", "check many", "plot 1.nc -o out.svg"])
+def test_a_terminal_that_is_closed_interrupts(tmp_path: Path, words: str) -> None:
+    many = [f"{number}.nc" for number in range(40)]
+    for name in many:
+        (tmp_path / name).write_text(GOOD if name == "0.nc" else FOREVER, encoding="utf-8")
+    before = sorted(tmp_path.iterdir())
+    command = [sys.executable, "-c", CLOSING, *words.replace("many", " ".join(many)).split()]
+    limit = "--control", "fanuc-m", "--block-limit", "1000000000"
+    done = subprocess.run([*command, *limit], cwd=tmp_path, timeout=PATIENCE_S, check=False)
+    assert done.returncode == 130
+    assert sorted(tmp_path.iterdir()) == before
+
+
 #: A check whose workers take longer for a file than any test waits.
 CHECKING = """
 import os, sys, time
@@ -350,7 +402,7 @@ from polycnc.cli.commands import check
 check._cores = lambda: 2
 def seldom(opening, file):
     if file[0] != "0.nc":
-        print(os.getpid(), flush=True)
+        os.write(1, b"%d\\n" % os.getpid())  # at once, whatever others write
         time.sleep(600)
     return check._Checked([])
 check._one_checked = seldom

@@ -44,9 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         with _interrupts():
             status = _run(words)
         sys.stdout.flush()
-    except BrokenPipeError:
-        # Whoever read our output has gone; Python would complain once more when it exits.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except OSError:  # whoever reads our output has gone, or its terminal
         status = BAD_USE
     except SystemExit:  # the answer of the panel's server where its address is taken
         status = BAD_USE
@@ -54,7 +52,17 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
         status = INTERRUPTED
     if status == INTERRUPTED:
         note(f"polycnc: {text('cli.interrupted')}")
+    if status in (BAD_USE, INTERRUPTED):
+        _give_up_output()
     sys.exit(status)
+
+
+def _give_up_output() -> None:
+    """What standard output does not take goes nowhere: Python would complain once more, and change the status."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 @contextmanager
