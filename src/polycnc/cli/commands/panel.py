@@ -9,6 +9,7 @@ from polycnc.cli import options
 from polycnc.cli.console import fail, say
 from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.progress import end as end_of_waiting
+from polycnc.deferred.contexts import ExitStack
 from polycnc.deferred.typing import TYPE_CHECKING, Annotated
 from polycnc.messages import text
 from polycnc.messages.catalogue import language
@@ -59,7 +60,7 @@ def panel(
     from polycnc.control.registry import ids
     from polycnc.messages.catalogue import listed
     from polycnc.panel.web.desk import Desk
-    from polycnc.panel.web.server import build, check_address, needs_token, serve
+    from polycnc.panel.web.server import build, check_address, closing, needs_token, serve
     from polycnc.session import SessionError
 
     task = _exercise(exercise) if exercise else None
@@ -85,10 +86,11 @@ def panel(
     named = f"[{host}]" if ":" in host else host
     say(f"http://{named}:{port}/" + (f"?token={token}" if token else ""))
     end_of_waiting()
-    try:
-        serve(host=host, port=port, opens=not no_open)
-    finally:
-        _keep(desks.values(), sheet, record)
+    with closing() as interrupts:
+        try:
+            serve(interrupts, host=host, port=port, opens=not no_open)
+        finally:
+            _keep(desks.values(), sheet, record)
     return 0
 
 
@@ -143,11 +145,14 @@ def _teach(desk: Desk, task: Exercise | None, replay: Path | None) -> None:
 
 
 def _keep(desks: Iterable[Desk], sheet: Path | None, record: Path | None) -> None:
-    """Close the controls, and write what a teacher takes away from the first one."""
-    for each in desks:
-        each.control.close()
-    desk = next(iter(desks))
-    if sheet is not None and desk.lesson is not None:
-        sheet.write_text(desk.lesson.sheet(language()), encoding="utf-8")
-    if record is not None:
-        record.write_text(desk.recording.text(), encoding="utf-8")
+    """Write what a teacher takes away from the first control, and close all; each whatever becomes of the others."""
+    from polycnc.cli.output import write_whole
+
+    with ExitStack() as last:
+        for each in desks:
+            last.callback(each.control.close)
+        desk = next(iter(desks))
+        if sheet is not None and desk.lesson is not None:
+            last.callback(lambda lesson: write_whole(sheet, lesson.sheet(language())), desk.lesson)
+        if record is not None:
+            last.callback(lambda: write_whole(record, desk.recording.text()))
