@@ -216,6 +216,29 @@ def test_ctrl_c_while_it_is_loaded_is_no_traceback(tmp_path: Path, name: str) ->
     assert (done.returncode, done.stderr) == (130, b"")
 
 
+def test_ctrl_c_that_becomes_another_error_is_one(console: Console, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As Python 3.11 makes of one that comes while it defines a class."""
+
+    def fails(*_: object, **__: object) -> None:
+        raise RuntimeError from KeyboardInterrupt()
+
+    monkeypatch.setattr("polycnc.cli.options.Opening.session", fails)
+    said = console("run", "a.nc")
+    assert (said.status, said.err) == (130, "polycnc: interrupted\n")
+
+
+def test_who_calls_it_has_its_own_answers_to_signals_again(
+    console: Console, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupts(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    before = signal.getsignal(signal.SIGINT)
+    monkeypatch.setattr("polycnc.cli.options.Opening.session", interrupts)
+    assert console("run", "a.nc").status == 130
+    assert signal.getsignal(signal.SIGINT) is before
+
+
 def test_a_reader_that_goes_away_ends_the_output_quietly(tmp_path: Path) -> None:
     process = _polycnc("machines", cwd=tmp_path, stdout=subprocess.PIPE)
     assert process.stdout is not None
@@ -407,12 +430,14 @@ def seldom(opening, file):
     return check._Checked([])
 check._one_checked = seldom
 ends = check._kill_where
+again = [int(number) for number in sys.argv[1:]]
 def interrupted(*words):
-    for number in sys.argv[1:]:
-        os.kill(os.getpid(), int(number))  # once more, while it ends its workers
+    for number in again:
+        os.kill(os.getpid(), number)  # once more, while it ends its workers
     ends(*words)
 check._kill_where = interrupted
-main(["check", "--control", "fanuc-m", *(f"{each}.nc" for each in range(40))])
+sys.argv[1:] = ["check", "--control", "fanuc-m", *(f"{each}.nc" for each in range(40))]
+main()
 """
 
 

@@ -12,7 +12,7 @@ from polycnc.cli.console import fail, note
 from polycnc.cli.progress import watched
 from polycnc.cli.usage import language_of, translated
 from polycnc.deferred.contexts import contextmanager
-from polycnc.deferred.typing import TYPE_CHECKING, NoReturn
+from polycnc.deferred.typing import TYPE_CHECKING, Any, NoReturn
 from polycnc.messages import text
 from polycnc.messages.catalogue import set_language
 from polycnc.messages.errors import place_of_failure
@@ -20,7 +20,7 @@ from polycnc.messages.files import reason_with_file
 
 if TYPE_CHECKING:
     import signal
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 else:
     import _signal as signal  # what the library's own module makes enumerations of, at every start
 
@@ -40,20 +40,20 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     130: interrupted.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
-    try:
-        with _interrupts():
+    with _interrupts(is_last=arguments is None) as ignore:
+        try:
             status = _run(words)
-        sys.stdout.flush()
-    except OSError:  # whoever reads our output has gone, or its terminal
-        status = BAD_USE
-    except SystemExit:  # the answer of the panel's server where its address is taken
-        status = BAD_USE
-    except KeyboardInterrupt:
-        status = INTERRUPTED
-    if status == INTERRUPTED:
-        note(f"polycnc: {text('cli.interrupted')}")
-    if status in (BAD_USE, INTERRUPTED):
-        _give_up_output()
+            sys.stdout.flush()
+        except OSError:  # whoever reads our output has gone, or its terminal
+            status = BAD_USE
+        except SystemExit:  # the answer of the panel's server where its address is taken
+            status = BAD_USE
+        except KeyboardInterrupt:
+            ignore()
+            status = INTERRUPTED
+            note(f"polycnc: {text('cli.interrupted')}")
+        if status in (BAD_USE, INTERRUPTED):
+            _give_up_output()
     sys.exit(status)
 
 
@@ -66,10 +66,16 @@ def _give_up_output() -> None:
 
 
 @contextmanager
-def _interrupts() -> Iterator[None]:
+def _interrupts(*, is_last: bool) -> Iterator[Callable[[], None]]:
     """Who is told to end takes half-written files and other processes away first, however often it is told.
 
     What tells it again within `AGAIN_S` would break that; later it may be what gets it out of a way that hangs.
+
+    Args:
+        is_last: The process ends behind this: what is ignored stays so.
+
+    Yields:
+        What is called when it ends already: signals are ignored then.
     """
     ends = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
     # Who has been told to outlive the terminal (nohup) does.
@@ -82,19 +88,23 @@ def _interrupts() -> Iterator[None]:
             heard[0] = monotonic()
             raise KeyboardInterrupt
 
+    def answer(answers: Mapping[int, Any]) -> None:
+        for number, handler in answers.items():
+            signal.signal(number, handler)
+
+    def ignore() -> None:
+        if is_last:
+            before.update(dict.fromkeys(before, signal.SIG_IGN))
+        answer(dict.fromkeys(before, signal.SIG_IGN))
+
     try:
-        for each in before:
-            signal.signal(each, interrupt)
+        answer(dict.fromkeys(before, interrupt))
     except ValueError:  # only the main thread may answer signals
         before = {}
     try:
-        yield
-    except KeyboardInterrupt:
-        before = dict.fromkeys(before, signal.SIG_IGN)  # it ends already
-        raise
+        yield ignore
     finally:
-        for each, handler in before.items():
-            signal.signal(each, handler)
+        answer(before)
 
 
 def _run(words: list[str]) -> int:
@@ -107,6 +117,10 @@ def _run(words: list[str]) -> int:
             status = asked() if asked is not None else _run_by_click(words)
             sys.stdout.flush()
     except Exception as error:  # noqa: BLE001 - `_told` says what it was
+        if isinstance(
+            error.__cause__, KeyboardInterrupt
+        ):  # Python 3.11 hides one that comes while a class is made
+            raise error.__cause__ from None
         return fail(_told(error), BAD_USE)
     return status if isinstance(status, int) else 0
 

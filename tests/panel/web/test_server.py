@@ -166,21 +166,35 @@ def test_further_interrupts_do_not_break_the_closing(tmp_path: Path, names: tupl
 def test_what_is_interrupted_depends_on_how_far_the_server_is() -> None:
     from polycnc.panel.web.interrupts import Interrupts
 
-    closed: list[str] = []
-    passed: list[str] = []
-    interrupts = Interrupts(lambda: closed.append("closed"))
-    with pytest.raises(KeyboardInterrupt), interrupts:
-        with pytest.raises(KeyboardInterrupt):
+    done: list[str] = []
+    interrupts = Interrupts(lambda: done.append("closed"))
+
+    def come(*, often: int = 1) -> None:
+        for _ in range(often):
             signal.raise_signal(signal.SIGINT)
-        signal.raise_signal(signal.SIGINT)  # right behind it
-        interrupts.begin_to_serve()
-        signal.raise_signal(signal.SIGINT)
-        interrupts.end()
-        signal.raise_signal(signal.SIGINT)
-        passed.append("what is to last")
-    assert (closed, passed) == (["closed"], ["what is to last"])
-    with pytest.raises(OSError, match="full"), interrupts:  # what could not be written is told
-        raise OSError("full")
+
+    def serve() -> None:
+        with interrupts:
+            with pytest.raises(KeyboardInterrupt):
+                come()
+            come()  # right behind it
+            interrupts.begin_to_serve()
+            come()
+            interrupts.end()
+            come(often=2)
+            done.append("written")
+
+    def fail() -> None:
+        with interrupts:
+            interrupts.end()
+            come()
+            raise OSError("full")
+
+    with pytest.raises(KeyboardInterrupt):
+        serve()
+    assert done == ["closed", "written"]
+    with pytest.raises(OSError, match="full"):  # what could not be written is told
+        fail()
 
 
 def test_an_exercise_is_served_and_its_sheet_and_record_are_written(tmp_path: Path) -> None:
