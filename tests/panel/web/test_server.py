@@ -95,7 +95,7 @@ def status(address: str, **headers: str) -> int:
     """The status of the page; 0 while nobody answers."""
     try:
         with urllib.request.urlopen(
-            urllib.request.Request(f"http://{address}/", headers=headers), timeout=5
+            urllib.request.Request(f"http://{address}/", headers=headers), timeout=20
         ) as page:
             return int(page.status)
     except urllib.error.HTTPError as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import logging
 import socket
 from importlib import resources
 
@@ -131,4 +132,9 @@ def serve(interrupts: Interrupts, *, host: str, port: int, opens: bool) -> None:
 
 def closing() -> Interrupts:
     """What closes the server when it is interrupted."""
-    return Interrupts(app.shutdown)
+
+    def close() -> None:
+        logging.getLogger("uvicorn.error").disabled = True  # it tells of answers that nobody waits for
+        app.shutdown()
+
+    return Interrupts(close)
