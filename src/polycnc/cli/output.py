@@ -41,8 +41,7 @@ def whole_file(path: Path, mode: str = "w") -> Iterator[IO[Any]]:
             yield stream
         return
     target = _target(path)
-    # Known before there is a file of this name: an interrupt may come at any time. Files have names of 255 bytes.
-    beside = target.with_name(f".{target.name[:50]}.{os.urandom(6).hex()}")
+    beside = _beside(target)  # known before there is a file of this name: an interrupt may come at any time
     try:
         handle = _opened(beside, path)
         with _stream(handle, path, mode) as stream:
@@ -56,6 +55,19 @@ def whole_file(path: Path, mode: str = "w") -> Iterator[IO[Any]]:
         with suppress(OSError):  # most often it has no name
             beside.unlink()
         raise
+
+
+def refuse_unwritable(path: Path) -> None:
+    """Raise `OSError`, as `whole_file` would, where no file can be written: before somebody has worked for it."""
+    if path.exists() and not path.is_file():
+        return
+    target = _target(path)
+    beside = _beside(target)
+    try:
+        os.close(_opened(beside, path))
+    finally:
+        with suppress(OSError):  # most often it has no name
+            beside.unlink()
 
 
 def refuse_twice(outputs: Iterable[Path | None]) -> None:
@@ -107,6 +119,11 @@ def _stream(file: str | int, path: Path, mode: str) -> IO[Any]:
     if "b" in mode:
         return stream
     return io.TextIOWrapper(stream, encoding="utf-8", errors="backslashreplace", newline="\n")
+
+
+def _beside(target: Path) -> Path:
+    """A name that no file has; with 50 letters of the target's it has less than the 255 bytes that systems allow."""
+    return target.with_name(f".{target.name[:50]}.{os.urandom(6).hex()}")
 
 
 def _opened(beside: Path, path: Path) -> int:

@@ -197,6 +197,19 @@ def test_what_is_interrupted_depends_on_how_far_the_server_is() -> None:
         fail()
 
 
+@pytest.mark.parametrize("output", ["--sheet", "--record"])
+def test_what_cannot_be_written_is_told_before_anybody_works(
+    output: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    from polycnc.cli import main
+
+    file = tmp_path / "missing" / "file"
+    with socket.create_server(("127.0.0.1", 0)) as taken, pytest.raises(SystemExit):
+        main(["panel", "--control", "fanuc-m", output, str(file), "--port", str(taken.getsockname()[1])])
+    assert capsys.readouterr().err == f"polycnc: {file}: there is no such file or folder\n"
+    assert not file.parent.exists()
+
+
 def test_an_exercise_is_served_and_its_sheet_and_record_are_written(tmp_path: Path) -> None:
     exercises = Path(__file__).parents[3] / "examples" / "exercises.yaml"
     words = ["--exercise", f"{exercises}#low-air", "--sheet", "sheet.md", "--record", "session.jsonl"]

@@ -57,6 +57,7 @@ def panel(
     _lang: options.Lang = None,
 ) -> int:
     """Serve one control, or several, each under its own address."""
+    from polycnc.cli.output import refuse_unwritable
     from polycnc.control.registry import ids
     from polycnc.messages.catalogue import listed
     from polycnc.panel.web.desk import Desk
@@ -73,6 +74,8 @@ def panel(
         return fail(text("panel.one-control"), 2)
     if card is not None and not card.is_dir():
         return fail(text("file.unreadable", file=card, reason=text("file.no-folder")), 2)
+    for output in filter(None, (sheet, record)):
+        refuse_unwritable(output)
     check_address(host, port)
     desks: dict[str, Desk] = {}
     for each in chosen:
