@@ -239,6 +239,36 @@ def test_who_calls_it_has_its_own_answers_to_signals_again(
     assert signal.getsignal(signal.SIGINT) is before
 
 
+FREEING = """
+import os, signal, sys, time
+from polycnc.cli import main
+from polycnc.cli.commands import check
+class Part:
+    def __del__(self):
+        os.kill(os.getpid(), signal.{name})
+        time.sleep(0)
+def checked(*_, **__):
+    Part()
+    end = time.monotonic() + 20.0
+    while time.monotonic() < end:
+        pass
+    return check._Checked([])
+check._checked = checked
+sys.argv[1:] = ["check", "--control", "fanuc-m", "a.nc"]
+main()
+"""
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+@pytest.mark.skipif(sys.platform == "win32", reason="has other signals")
+def test_an_interrupt_that_comes_while_an_object_is_freed_is_not_lost(tmp_path: Path, name: str) -> None:
+    command = [sys.executable, "-c", FREEING.format(name=name)]
+    done = subprocess.run(
+        command, cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE_S, check=False
+    )
+    assert (done.returncode, done.stderr) == (130, "polycnc: interrupted\n")
+
+
 def test_a_reader_that_goes_away_ends_the_output_quietly(tmp_path: Path) -> None:
     process = _polycnc("machines", cwd=tmp_path, stdout=subprocess.PIPE)
     assert process.stdout is not None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import math
 import os
 import sys
@@ -21,6 +22,7 @@ from polycnc.messages.files import reason_with_file
 if TYPE_CHECKING:
     import signal
     from collections.abc import Callable, Iterator, Mapping, Sequence
+    from sys import UnraisableHookArgs
 else:
     import _signal as signal  # what the library's own module makes enumerations of, at every start
 
@@ -81,12 +83,20 @@ def _interrupts(*, is_last: bool) -> Iterator[Callable[[], None]]:
     # Who has been told to outlive the terminal (nohup) does.
     handlers = {each: signal.getsignal(each) for each in ends}
     before = {each: handler for each, handler in handlers.items() if handler not in (signal.SIG_IGN, None)}
-    heard = [-math.inf]
+    heard, numbers, lost_before = [-math.inf], [0], sys.unraisablehook
 
-    def interrupt(_number: int, _frame: object) -> None:
+    def interrupt(number: int, _frame: object) -> None:
         if monotonic() > heard[0] + AGAIN_S:
-            heard[0] = monotonic()
+            heard[0], numbers[0] = monotonic(), number
             raise KeyboardInterrupt
+
+    def lost(what: UnraisableHookArgs) -> None:
+        """Python drops what is raised while it frees an object: an interrupt comes once more, behind that."""
+        if issubclass(what.exc_type, KeyboardInterrupt) and numbers[0]:
+            heard[0] = -math.inf
+            _thread.start_new_thread(_thread.interrupt_main, (numbers[0],))
+        else:
+            lost_before(what)
 
     def answer(answers: Mapping[int, Any]) -> None:
         for number, handler in answers.items():
@@ -99,12 +109,15 @@ def _interrupts(*, is_last: bool) -> Iterator[Callable[[], None]]:
 
     try:
         answer(dict.fromkeys(before, interrupt))
+        sys.unraisablehook = lost
     except ValueError:  # only the main thread may answer signals
         before = {}
     try:
         yield ignore
     finally:
         answer(before)
+        if sys.unraisablehook is lost:
+            sys.unraisablehook = lost_before
 
 
 def _run(words: list[str]) -> int:
