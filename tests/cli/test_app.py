@@ -6,7 +6,7 @@ import subprocess
 import sys
 import time
 import tomllib
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from pathlib import Path
 from threading import Thread
 from typing import TYPE_CHECKING
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from polycnc import __version__
-from polycnc.cli import commands
+from polycnc.cli import app, commands
 from polycnc.cli.app import main
 from polycnc.cli.commands import COMMANDS
 from polycnc.language.bulk.compiled import LIBRARY as READING
@@ -225,6 +225,16 @@ def test_ctrl_c_that_becomes_another_error_is_one(console: Console, monkeypatch:
     monkeypatch.setattr("polycnc.cli.options.Opening.session", fails)
     said = console("run", "a.nc")
     assert (said.status, said.err) == (130, "polycnc: interrupted\n")
+
+
+def test_a_further_interrupt_acts_only_where_the_first_one_hangs(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [100.0]
+    monkeypatch.setattr(app, "monotonic", lambda: now[0])
+    with app._interrupts(is_last=False):
+        for seconds, acts in ((0.0, True), (0.01, False), (4.9, False), (0.2, True), (0.01, False)):
+            now[0] += seconds
+            with pytest.raises(KeyboardInterrupt) if acts else nullcontext():
+                signal.raise_signal(signal.SIGINT)
 
 
 def test_who_calls_it_has_its_own_answers_to_signals_again(

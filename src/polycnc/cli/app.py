@@ -27,8 +27,9 @@ else:
     import _signal as signal  # what the library's own module makes enumerations of, at every start
 
 BAD_USE, INTERRUPTED = 2, 130
-#: So long, in seconds, one interrupt is enough.
-AGAIN_S = 1.0
+#: So long, in seconds, one interrupt is enough: a busy machine may take seconds to clean up, and from one of several
+#: signals to the next.
+AGAIN_S = 5.0
 #: With this variable of the environment a mistake of polycnc shows all of its way.
 TRACEBACK = "POLYCNC_TRACEBACK"
 #: Libraries that polycnc can do without, and the extra that brings each.

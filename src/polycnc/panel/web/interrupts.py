@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 #: So long, s, one interrupt is enough; while nothing serves yet, a later one is raised again.
-AGAIN_S = 1.0
+AGAIN_S = 5.0
 #: Ctrl-C, an order to end, a terminal that is closed.
 _ENDS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
 
