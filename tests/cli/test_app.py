@@ -423,7 +423,11 @@ def test_where_nobody_can_be_told_the_status_is_the_same(
 ) -> None:
     (tmp_path / "bad.nc").write_text(BAD, encoding="utf-8")
     command = f"{sys.executable} -m polycnc {words} {closed}"
-    run = subprocess.run(command, shell=True, cwd=tmp_path, capture_output=True, text=True, check=False)
+    # Buffered as for a user: Python complains at its end of what is still to be written then.
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    run = subprocess.run(
+        command, shell=True, cwd=tmp_path, capture_output=True, text=True, check=False, env=environment
+    )
     assert (run.returncode, run.stderr) == (status, "")
 
 
@@ -434,6 +438,7 @@ import os, pty, sys
 from contextlib import suppress
 process, terminal = pty.fork()
 if not process:
+    os.environ.pop("PYTHONUNBUFFERED", None)  # as for a user
     os.execve(sys.executable, [sys.executable, "-m", "polycnc", *sys.argv[1:]], {**os.environ, "TERM": "xterm"})
 with suppress(OSError):
     while b"0:0" not in os.read(terminal, 1 << 16):

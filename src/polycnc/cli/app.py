@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     import signal
     from collections.abc import Callable, Iterator, Mapping, Sequence
     from sys import UnraisableHookArgs
+    from typing import TextIO
 else:
     import _signal as signal  # what the library's own module makes enumerations of, at every start
 
@@ -55,17 +56,17 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
             ignore()
             status = INTERRUPTED
             note(f"polycnc: {text('cli.interrupted')}")
-        if status in (BAD_USE, INTERRUPTED):
-            _give_up_output()
+        for stream in (sys.stdout, sys.stderr):
+            _give_up(stream)
     sys.exit(status)
 
 
-def _give_up_output() -> None:
-    """What standard output does not take goes nowhere: Python would complain once more, and change the status."""
+def _give_up(stream: TextIO) -> None:
+    """What a stream does not take goes nowhere: Python would complain once more, and change the status."""
     try:
-        sys.stdout.flush()
+        stream.flush()
     except OSError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 @contextmanager
