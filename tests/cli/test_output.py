@@ -7,7 +7,7 @@ import stat
 import subprocess
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -55,7 +55,7 @@ def test_an_interrupt_at_any_moment_leaves_the_old_file_or_the_new_one(
     path = tmp_path / "out.txt"
     left = 0
 
-    def interrupt(frame: FrameType, event: str, _: object) -> object:
+    def interrupt(frame: FrameType, event: str, _: object) -> Any:
         nonlocal left
         if frame.f_code.co_filename != output.__file__:
             return None

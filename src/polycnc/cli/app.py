@@ -96,7 +96,7 @@ def _interrupts(*, is_last: bool) -> Iterator[Callable[[], None]]:
         """Python drops what is raised while it frees an object: an interrupt comes once more, behind that."""
         if issubclass(what.exc_type, KeyboardInterrupt) and numbers[0]:
             heard[0] = -math.inf
-            _thread.start_new_thread(_thread.interrupt_main, (numbers[0],))
+            _thread.start_new_thread(_thread.interrupt_main, (numbers[0],))  # type: ignore[arg-type]  # a number
         else:
             lost_before(what)
 

@@ -64,6 +64,7 @@ def served(folder: Path, *words: str, ends: Sequence[str] = ("SIGINT",)) -> Iter
 
 def started(folder: Path, *words: str) -> tuple[subprocess.Popen[str], str]:
     """A server that answers, and its address."""
+    said = "", ""
     for _ in range(5):
         port = free_port()
         command = [sys.executable, "-m", "polycnc", "panel", *words, "--no-open", "--port", str(port)]
