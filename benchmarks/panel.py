@@ -135,12 +135,11 @@ def page() -> Iterator[Figure]:
 
 async def _measure(folder: Path) -> dict[str, float]:
     from tests.panel.web.browser import browser
-    from tests.panel.web.test_server import free_port
 
     found: dict[str, float] = {}
     async with (
         _Server(folder, lines_of(LINES)) as server,
-        browser(server.url, folder / "a", free_port()) as seen,
+        browser(server.url, folder / "a") as seen,
     ):
         await seen.press("Safety key")
         await seen.press("Cycle start (SW4)")
@@ -150,7 +149,7 @@ async def _measure(folder: Path) -> dict[str, float]:
         found |= await _three(server)
     async with (
         _Server(folder, lines_of(LONG)) as server,
-        browser(server.url, folder / "b", free_port()) as seen,
+        browser(server.url, folder / "b") as seen,
     ):
         await seen.press("CSTM/GR")
         await seen.until(f"{_PICTURE}.points >= {LONG}")

@@ -8,12 +8,14 @@ repeats tests in another way.
 from __future__ import annotations
 
 import gc
+import os
 import signal
 
 import pytest
 from hypothesis import settings
 
 from polycnc.cases.features import PROPERTY
+from polycnc.kernels.native import CHOICE
 from tests import both_ways
 
 # A slow machine is no failure.
@@ -21,6 +23,11 @@ settings.register_profile("polycnc", deadline=None, derandomize=True)
 settings.register_profile("explore", deadline=None, derandomize=False)
 settings.register_profile("brief", deadline=None, derandomize=True, max_examples=20)
 settings.load_profile("polycnc")
+
+# What a user tells polycnc and a terminal says of itself is the same in every run, but for the choice of kernels.
+for name in [name for name in os.environ if name.startswith("POLYCNC_") and name != CHOICE]:
+    del os.environ[name]
+os.environ.update(POLYCNC_LANG="en", COLUMNS="80", LINES="24")
 
 # Where tests run in the background of a shell, Ctrl-C is ignored, and the processes that they start would inherit that.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:

@@ -211,7 +211,7 @@ def printed(folder: Path, code: str, *words: str, **environment: str) -> str:
         env={**inherited, "PYTHONPATH": str(folder), **environment},
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=120,
         check=False,
     )
     assert done.returncode == 0, done.stderr

@@ -189,7 +189,7 @@ def loaded_by(code: str, folder: Path) -> set[str]:
     """Names of all modules that some code loads in a fresh interpreter, which has loaded `re` as start scripts do."""
     probe = f"import re, sys\nbefore = {{*sys.modules}}\n{code}\nprint(*({{*sys.modules}} - before))"
     done = subprocess.run(
-        [sys.executable, "-c", probe], cwd=folder, capture_output=True, text=True, timeout=60, check=True
+        [sys.executable, "-c", probe], cwd=folder, capture_output=True, text=True, timeout=120, check=True
     )
     return set(done.stdout.splitlines()[-1].split())
 

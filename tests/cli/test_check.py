@@ -4,6 +4,7 @@ import _thread
 import io
 import json
 import multiprocessing
+import os
 import sys
 from contextlib import nullcontext
 from time import monotonic, sleep
@@ -172,6 +173,7 @@ def test_sarif_of_a_good_program_has_no_results(console: Console) -> None:
     assert run["invocations"] == [{"executionSuccessful": True, "exitCode": 0}]
 
 
+@pytest.mark.skipif(sys.getfilesystemencoding() != "utf-8", reason="names of files are plain there")
 def test_sarif_places_a_finding_relative_to_the_working_folder(console: Console) -> None:
     console.file("größe 1.nc", BAD)
     (result,) = sarif(console, "größe 1.nc")["results"]
@@ -179,6 +181,24 @@ def test_sarif_places_a_finding_relative_to_the_working_folder(console: Console)
     assert place["artifactLocation"] == {"uri": "gr%C3%B6%C3%9Fe%201.nc", "uriBaseId": "%SRCROOT%"}
     assert place["region"]["startLine"] == 3
     assert result["ruleId"] == "fanuc/PS0010"
+
+
+@pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="names of files are text there")
+@pytest.mark.parametrize("form", check.Format)
+def test_a_name_in_another_encoding_is_told_in_every_form(console: Console, form: str) -> None:
+    name = os.fsdecode(b"gr\xf6\xdfe.nc")
+    console.file(name, BAD)
+    words = ("check", name, *FANUC, "--format", form)
+    said = console(*words)
+    assert (said.status, said.err) == (1, "")
+    assert console(*words, "--output", "found").status == 1
+    found = (console.folder / "found").read_text(encoding="utf-8")
+    told = "gr%F6%DFe.nc" if form == check.Format.SARIF else "gr\\udcf6\\udcdfe.nc"
+    assert told in found
+    if form in (check.Format.JSON, check.Format.SARIF):
+        json.loads(found)
+    if form == check.Format.JSON:
+        assert json.loads(found)[0]["file"] == name
 
 
 def test_sarif_tells_the_way_of_the_calls(console: Console) -> None:
@@ -256,6 +276,24 @@ def test_many_files_are_checked_on_all_cores_in_their_order(
     alone = console("check", *names, *FANUC, "--lang", "zh-TW")
     assert shared == alone
     assert [line[:9] for line in shared.out.splitlines() if line.startswith("part")] == names[::5]
+
+
+@pytest.mark.parametrize("lack", [ImportError, NotImplementedError, PermissionError])
+def test_where_processes_can_share_no_locks_one_checks_all(
+    console: Console, monkeypatch: pytest.MonkeyPatch, lack: type[Exception]
+) -> None:
+    """As where `/dev/shm` cannot be written."""
+
+    def fails(*_: object, **__: object) -> None:
+        raise lack
+
+    monkeypatch.setattr(check, "_cores", lambda: 2)
+    monkeypatch.setattr("concurrent.futures.ProcessPoolExecutor.__init__", fails)
+    names = [f"{i}.nc" for i in range(2 * check.SHARED)]
+    for name in names:
+        console.file(name, BAD if name == "7.nc" else GOOD)
+    said = console("check", *names, *FANUC)
+    assert (said.status, said.err, said.out[:5]) == (1, "", "7.nc:")
 
 
 def test_workers_that_begin_anew_find_the_same(console: Console, monkeypatch: pytest.MonkeyPatch) -> None:

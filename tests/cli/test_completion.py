@@ -43,7 +43,7 @@ def offered(shell: str, words: str, begun: str) -> list[str]:
     environment = {"_POLYCNC_COMPLETE": f"{shell}_complete", "COMP_WORDS": line, "COMP_CWORD": count}
     done = subprocess.run(
         [sys.executable, "-m", "polycnc"], env={**os.environ, **environment, "POLYCNC_LANG": "en"},
-        capture_output=True, text=True, timeout=30, check=True,
+        capture_output=True, text=True, timeout=120, check=True,
     )  # fmt: skip
     assert done.stderr == ""
     return done.stdout.splitlines()
@@ -122,7 +122,7 @@ def test_an_unknown_shell_is_told(console: Console, monkeypatch: pytest.MonkeyPa
 def bash(code: str, folder: Path) -> list[str]:
     command = ["bash", "--norc", "-c", code]
     return subprocess.run(
-        command, cwd=folder, capture_output=True, text=True, timeout=30, check=True
+        command, cwd=folder, capture_output=True, text=True, timeout=120, check=True
     ).stdout.split()
 
 
@@ -157,7 +157,7 @@ def test_fish_completes_when_it_is_installed(console: Console, home: Path, typed
     assert console("--install-completion", "fish").status == 0
     (home / "bracket.nc").touch()
     command = ["fish", "--command", f"complete --do-complete '{typed}'"]
-    done = subprocess.run(command, cwd=home, capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run(command, cwd=home, capture_output=True, text=True, timeout=120, check=True)
     offered = [line.partition("\t")[0] for line in done.stdout.splitlines()]
     assert common(offered) == TYPED[typed].split()[-1]
 
@@ -191,7 +191,7 @@ def typed_in_zsh(line: str, home: Path) -> str:
         print -r -- $said
     """
     done = subprocess.run(
-        ["zsh", "-f", "-c", code], cwd=home, capture_output=True, text=True, timeout=60, check=True,
+        ["zsh", "-f", "-c", code], cwd=home, capture_output=True, text=True, timeout=120, check=True,
         env={**os.environ, "TERM": "dumb"},
     )  # fmt: skip
     return done.stdout.rpartition("[[")[2].partition("]]")[0]

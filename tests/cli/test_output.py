@@ -1,19 +1,23 @@
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import stat
 import subprocess
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from polycnc.cli import output
 from polycnc.cli.output import whole_file, write_whole
 from tests.cli.console import BAD, GOOD
 
 if TYPE_CHECKING:
+    from types import FrameType
+
     from tests.cli.console import Console
 
 
@@ -38,6 +42,65 @@ def test_a_failure_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
         interrupted(path)
     assert path.read_text(encoding="utf-8") == "old"
     assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # files that nobody has closed
+@pytest.mark.parametrize("unnamed", [True, False])
+def test_an_interrupt_at_any_moment_leaves_the_old_file_or_the_new_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, unnamed: bool
+) -> None:
+    """Between any two steps of Python, for systems that have files without a name and others."""
+    if not unnamed:
+        monkeypatch.delattr(os, "O_TMPFILE", raising=False)
+    path = tmp_path / "out.txt"
+    left = 0
+
+    def interrupt(frame: FrameType, event: str, _: object) -> Any:
+        nonlocal left
+        if frame.f_code.co_filename != output.__file__:
+            return None
+        frame.f_trace_opcodes = True
+        if event == "opcode":
+            left -= 1
+            if left == 0:
+                raise KeyboardInterrupt
+        return interrupt
+
+    def interrupted_behind(steps: int) -> bool:
+        nonlocal left
+        left = steps
+        path.write_text("old", encoding="utf-8")
+        before = sys.gettrace()
+        sys.settrace(interrupt)
+        try:
+            write_whole(path, "new")
+        except KeyboardInterrupt:
+            return True
+        finally:
+            sys.settrace(before)
+        return False
+
+    steps = 1
+    found = set()
+    while interrupted_behind(steps):
+        steps += 1
+        found.add(path.read_text(encoding="utf-8"))
+        assert list(tmp_path.iterdir()) == [path], steps
+    gc.collect()  # here, where nobody minds files that are closed by that
+    assert found == {"old", "new"}
+    assert steps > 100
+
+
+@pytest.mark.parametrize("unnamed", [True, False])
+def test_a_name_may_be_as_long_as_the_system_allows(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, unnamed: bool
+) -> None:
+    if not unnamed:
+        monkeypatch.delattr(os, "O_TMPFILE", raising=False)
+    names = ["孔" * 84, "o" * 250]
+    for name in names:
+        write_whole(tmp_path / name, "text")
+    assert sorted(each.name for each in tmp_path.iterdir()) == sorted(names)
 
 
 def test_a_new_file_may_be_read_by_whom_the_umask_allows(tmp_path: Path) -> None:
@@ -86,6 +149,7 @@ def test_a_file_that_is_renewed_keeps_its_mode(tmp_path: Path) -> None:
 KILLED = """
 import os, signal, sys
 from pathlib import Path
+from polycnc.cli import output
 from polycnc.cli.output import whole_file
 number = int(sys.argv[2])
 if number != signal.SIGKILL:  # `nohup` hands on an ignored signal

@@ -193,7 +193,7 @@ print([each.name for each in threading.enumerate()], "multiprocessing" in sys.mo
 
 def test_a_bar_leaves_no_thread_and_nothing_on_the_terminal() -> None:
     done = subprocess.run(
-        [sys.executable, "-c", SHOWING], capture_output=True, text=True, timeout=60, check=True,
+        [sys.executable, "-c", SHOWING], capture_output=True, text=True, timeout=120, check=True,
         env={**os.environ, "TERM": "xterm"},
     )  # fmt: skip
     assert done.stdout == "['MainThread'] False\n"

@@ -73,7 +73,7 @@ def test_a_page_of_help_comes_in_the_characters_that_the_terminal_has(tmp_path: 
     command = [sys.executable, "-m", "polycnc", "check", "--help"]
     environment = {**os.environ, "PYTHONIOENCODING": "ascii", "POLYCNC_LANG": "en"}
     done = subprocess.run(
-        command, cwd=tmp_path, capture_output=True, text=True, timeout=30, check=False, env=environment
+        command, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False, env=environment
     )
     assert done.returncode == 0
     assert done.stdout.startswith("Usage: polycnc check [OPTIONS] FILE?\n")

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import threading
 import typing
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pydantic
@@ -240,6 +241,7 @@ def test_another_process_reads_what_was_pickled(protocol: int) -> None:
     things = [Point(1), Point(2, [3]), Pair(1), Pair(1, 2.0)]
     ask = (
         "import pickle, sys\n"
+        f"sys.path.insert(0, {str(Path(__file__).parents[2])!r})\n"  # wherever tests are started
         "things = pickle.loads(sys.stdin.buffer.read())\n"
         f"sys.stdout.buffer.write(pickle.dumps(things, {protocol}))"
     )

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from time import monotonic, sleep
 
+import pytest
+
 from polycnc.mainrun import VirtualControl
-from polycnc.panel.checking import look
+from polycnc.panel.checking import LONGEST_S, look
 from polycnc.panel.editing import LONGEST_LOOK, Check, check_elsewhere, findings, told
 
 #: Longer than a check looks at once, with an alarm at its end.
 LONG = "O1\n" + "".join(f"G1 X{i % 7}. F500.\n" for i in range(LONGEST_LOOK + 500)) + "G999\nM30\n"
-PATIENCE_S = 30.0
+#: A busy machine takes its time, seconds.
+PATIENCE_S = 120.0
 
 
 def test_another_process_finds_what_lies_behind_the_first_blocks() -> None:
@@ -57,3 +62,26 @@ def test_a_check_that_nobody_wants_ends() -> None:
         sleep(0.01)
     assert far.is_over
     assert far.found is None
+
+
+#: A process whose check goes on for long; the check, too, holds what it says something on.
+LEAVING = """
+import os, subprocess, sys
+from functools import partial
+from polycnc.mainrun import VirtualControl
+from polycnc.panel import checking
+from polycnc.panel.editing import check_elsewhere
+checking.Popen = partial(subprocess.Popen, pass_fds=[os.dup(1)])
+far = check_elsewhere(VirtualControl("fanuc-m"), "O0001", "O1\\nN1 #1=#1+1\\nGOTO 1\\nM30\\n")
+print("goes on", flush=True)
+far._process.wait()
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs files that a process inherits")
+def test_a_check_ends_with_the_process_that_wants_it() -> None:
+    with subprocess.Popen([sys.executable, "-c", LEAVING], stdout=subprocess.PIPE) as panel:
+        assert panel.stdout is not None
+        assert panel.stdout.readline() == b"goes on\n"
+        panel.kill()
+        panel.communicate(timeout=LONGEST_S - 10.0)  # until the check has closed its end

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import math
 import os
 import sys
@@ -12,7 +13,7 @@ from polycnc.cli.console import fail, note
 from polycnc.cli.progress import watched
 from polycnc.cli.usage import language_of, translated
 from polycnc.deferred.contexts import contextmanager
-from polycnc.deferred.typing import TYPE_CHECKING, NoReturn
+from polycnc.deferred.typing import TYPE_CHECKING, Any, NoReturn
 from polycnc.messages import text
 from polycnc.messages.catalogue import set_language
 from polycnc.messages.errors import place_of_failure
@@ -20,13 +21,16 @@ from polycnc.messages.files import reason_with_file
 
 if TYPE_CHECKING:
     import signal
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from sys import UnraisableHookArgs
+    from typing import TextIO
 else:
     import _signal as signal  # what the library's own module makes enumerations of, at every start
 
 BAD_USE, INTERRUPTED = 2, 130
-#: So long, in seconds, one interrupt is enough.
-AGAIN_S = 1.0
+#: So long, in seconds, one interrupt is enough: a busy machine may take seconds to clean up, and from one of several
+#: signals to the next.
+AGAIN_S = 5.0
 #: With this variable of the environment a mistake of polycnc shows all of its way.
 TRACEBACK = "POLYCNC_TRACEBACK"
 #: Libraries that polycnc can do without, and the extra that brings each.
@@ -40,53 +44,82 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     130: interrupted.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
-    try:
-        with _interrupts():
+    with _interrupts(is_last=arguments is None) as ignore:
+        try:
             status = _run(words)
-        sys.stdout.flush()
-    except BrokenPipeError:
-        # Whoever read our output has gone; Python would complain once more when it exits.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        status = BAD_USE
-    except SystemExit:  # the answer of the panel's server where its address is taken
-        status = BAD_USE
-    except KeyboardInterrupt:
-        status = INTERRUPTED
-    if status == INTERRUPTED:
-        note(f"polycnc: {text('cli.interrupted')}")
+            sys.stdout.flush()
+        except OSError:  # whoever reads our output has gone, or its terminal
+            status = BAD_USE
+        except SystemExit:  # the answer of the panel's server where its address is taken
+            status = BAD_USE
+        except KeyboardInterrupt:
+            ignore()
+            status = INTERRUPTED
+            note(f"polycnc: {text('cli.interrupted')}")
+        for stream in (sys.stdout, sys.stderr):
+            _give_up(stream)
     sys.exit(status)
 
 
+def _give_up(stream: TextIO) -> None:
+    """What a stream does not take goes nowhere: Python would complain once more, and change the status."""
+    try:
+        stream.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
 @contextmanager
-def _interrupts() -> Iterator[None]:
+def _interrupts(*, is_last: bool) -> Iterator[Callable[[], None]]:
     """Who is told to end takes half-written files and other processes away first, however often it is told.
 
     What tells it again within `AGAIN_S` would break that; later it may be what gets it out of a way that hangs.
+
+    Args:
+        is_last: The process ends behind this: what is ignored stays so.
+
+    Yields:
+        What is called when it ends already: signals are ignored then.
     """
     ends = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
     # Who has been told to outlive the terminal (nohup) does.
     handlers = {each: signal.getsignal(each) for each in ends}
     before = {each: handler for each, handler in handlers.items() if handler not in (signal.SIG_IGN, None)}
-    heard = [-math.inf]
+    heard, numbers, lost_before = [-math.inf], [0], sys.unraisablehook
 
-    def interrupt(_number: int, _frame: object) -> None:
+    def interrupt(number: int, _frame: object) -> None:
         if monotonic() > heard[0] + AGAIN_S:
-            heard[0] = monotonic()
+            heard[0], numbers[0] = monotonic(), number
             raise KeyboardInterrupt
 
+    def lost(what: UnraisableHookArgs) -> None:
+        """Python drops what is raised while it frees an object: an interrupt comes once more, behind that."""
+        if issubclass(what.exc_type, KeyboardInterrupt) and numbers[0]:
+            heard[0] = -math.inf
+            _thread.start_new_thread(_thread.interrupt_main, (numbers[0],))  # type: ignore[arg-type]  # a number
+        else:
+            lost_before(what)
+
+    def answer(answers: Mapping[int, Any]) -> None:
+        for number, handler in answers.items():
+            signal.signal(number, handler)
+
+    def ignore() -> None:
+        if is_last:
+            before.update(dict.fromkeys(before, signal.SIG_IGN))
+        answer(dict.fromkeys(before, signal.SIG_IGN))
+
     try:
-        for each in before:
-            signal.signal(each, interrupt)
+        answer(dict.fromkeys(before, interrupt))
+        sys.unraisablehook = lost
     except ValueError:  # only the main thread may answer signals
         before = {}
     try:
-        yield
-    except KeyboardInterrupt:
-        before = dict.fromkeys(before, signal.SIG_IGN)  # it ends already
-        raise
+        yield ignore
     finally:
-        for each, handler in before.items():
-            signal.signal(each, handler)
+        answer(before)
+        if sys.unraisablehook is lost:
+            sys.unraisablehook = lost_before
 
 
 def _run(words: list[str]) -> int:
@@ -99,6 +132,10 @@ def _run(words: list[str]) -> int:
             status = asked() if asked is not None else _run_by_click(words)
             sys.stdout.flush()
     except Exception as error:  # noqa: BLE001 - `_told` says what it was
+        if isinstance(
+            error.__cause__, KeyboardInterrupt
+        ):  # Python 3.11 hides one that comes while a class is made
+            raise error.__cause__ from None
         return fail(_told(error), BAD_USE)
     return status if isinstance(status, int) else 0
 

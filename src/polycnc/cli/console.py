@@ -6,7 +6,7 @@ import os
 import sys
 
 from polycnc.cli.progress import away, encodable
-from polycnc.deferred.contexts import nullcontext
+from polycnc.deferred.contexts import nullcontext, suppress
 
 _COLOURS = {"red": 31, "green": 32, "yellow": 33, "bold": 1}
 
@@ -24,8 +24,8 @@ def show(content: str) -> None:
 
 
 def note(line: str) -> None:
-    """A line beside the result."""
-    with away():
+    """A line beside the result; nobody is told where standard error takes nothing: a terminal has been closed."""
+    with away(), suppress(OSError):
         sys.stderr.write(encodable(line, sys.stderr.encoding) + "\n")
 
 

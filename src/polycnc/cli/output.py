@@ -41,26 +41,33 @@ def whole_file(path: Path, mode: str = "w") -> Iterator[IO[Any]]:
             yield stream
         return
     target = _target(path)
+    beside = _beside(target)  # known before there is a file of this name: an interrupt may come at any time
     try:
-        handle, name = _nameless(target.parent)
-        if handle < 0:
-            import tempfile
-
-            handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-    except OSError as error:
-        raise _named_error(error, path) from error
-    try:
+        handle = _opened(beside, path)
         with _stream(handle, path, mode) as stream:
             yield stream
             stream.flush()
-            if not name:
-                name = _named(handle, target)
-        Path(name).chmod(_mode_of(target))
-        Path(name).replace(target)
+            if not beside.exists():
+                _name(handle, beside)
+        beside.chmod(_mode_of(target))
+        beside.replace(target)
     except BaseException:
-        if name:
-            Path(name).unlink(missing_ok=True)
+        with suppress(OSError):  # most often it has no name
+            beside.unlink()
         raise
+
+
+def refuse_unwritable(path: Path) -> None:
+    """Raise `OSError`, as `whole_file` would, where no file can be written: before somebody has worked for it."""
+    if path.exists() and not path.is_file():
+        return
+    target = _target(path)
+    beside = _beside(target)
+    try:
+        os.close(_opened(beside, path))
+    finally:
+        with suppress(OSError):  # most often it has no name
+            beside.unlink()
 
 
 def refuse_twice(outputs: Iterable[Path | None]) -> None:
@@ -103,26 +110,37 @@ def _named_error(error: OSError, path: Path) -> OSError:
 
 
 def _stream(file: str | int, path: Path, mode: str) -> IO[Any]:
-    """The stream of a file (by name or number): of bytes, else of text in UTF-8."""
+    """The stream of a file (by name or number): of bytes, else of text in UTF-8.
+
+    Names of files that are not in the encoding of the system have characters that no text can have: these are written
+    with a backslash, as JSON writes them.
+    """
     stream = io.BufferedWriter(_File(file, path), _BUFFERED)
-    return stream if "b" in mode else io.TextIOWrapper(stream, encoding="utf-8", newline="\n")
+    if "b" in mode:
+        return stream
+    return io.TextIOWrapper(stream, encoding="utf-8", errors="backslashreplace", newline="\n")
 
 
-def _nameless(folder: Path) -> tuple[int, str]:
-    """A file without a name in a folder; -1 where the system has none."""
-    if hasattr(os, "O_TMPFILE") and Path("/proc/self/fd").is_dir():
-        with suppress(OSError):
-            return os.open(folder, os.O_TMPFILE | os.O_RDWR | os.O_CLOEXEC, 0o600), ""
-    return -1, ""
+def _beside(target: Path) -> Path:
+    """A name that no file has; with 50 letters of the target's it has less than the 255 bytes that systems allow."""
+    return target.with_name(f".{target.name[:50]}.{os.urandom(6).hex()}")
 
 
-def _named(handle: int, target: Path) -> str:
-    """Give a file without a name one beside its target."""
-    name = str(target.parent / f".{target.name[:200]}.{os.getpid()}.{handle}")
-    Path(name).unlink(missing_ok=True)
+def _opened(beside: Path, path: Path) -> int:
+    """A new file: without a name where the system has such, else one beside the target. Errors name the target."""
+    try:
+        if hasattr(os, "O_TMPFILE") and Path("/proc/self/fd").is_dir():
+            with suppress(OSError):
+                return os.open(beside.parent, os.O_TMPFILE | os.O_RDWR | os.O_CLOEXEC, 0o600)
+        return os.open(beside, os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o600)
+    except OSError as error:
+        raise _named_error(error, path) from error
+
+
+def _name(handle: int, beside: Path) -> None:
+    """Give a file without a name one."""
     # With a folder named, the call is `linkat`, which alone follows the link to the file.
-    os.link(f"/proc/self/fd/{handle}", name, src_dir_fd=handle, follow_symlinks=True)
-    return name
+    os.link(f"/proc/self/fd/{handle}", beside, src_dir_fd=handle, follow_symlinks=True)
 
 
 def _mode_of(target: Path) -> int:

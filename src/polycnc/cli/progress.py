@@ -11,7 +11,7 @@ import os
 import sys
 from time import monotonic
 
-from polycnc.deferred.contexts import contextmanager
+from polycnc.deferred.contexts import contextmanager, suppress
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING, ClassVar, Never, Protocol, Self, TypeVar
 from polycnc.messages import text
@@ -124,13 +124,14 @@ class Watch:
 
     def hide(self) -> None:
         """Take the bar away until the next look; only under the lock."""
-        if self._bar is not None:
-            self._bar.close()
-            self._bar = None
+        bar, self._bar = self._bar, None
+        if bar is not None:
+            with suppress(OSError):  # the terminal has been closed
+                bar.close()
 
     def _look_on(self) -> None:
         while not self._over.acquire(timeout=LOOK_S):
-            with self.lock:
+            with self.lock, suppress(OSError):  # as above
                 if self.works:
                     self.look(self.works[-1], monotonic())
         self._over.release()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from pathlib import Path
 from urllib.parse import quote
 
@@ -90,12 +91,12 @@ def _artifact(file: str) -> dict[str, str]:
         relative = (path if path.is_absolute() else Path.cwd() / path).relative_to(Path.cwd())
     except ValueError:
         return {"uri": path.resolve().as_uri()}
-    return {"uri": quote(relative.as_posix()), "uriBaseId": _ROOT}
+    return {"uri": quote(os.fsencode(relative.as_posix())), "uriBaseId": _ROOT}
 
 
 def _line_hash(diagnostic: Diagnostic, seen: dict[str, int]) -> str:
     """Hash of the line's text and its count in this run: it survives lines that are put in above."""
     key = f"{diagnostic.rule}\0{diagnostic.place.file}\0{''.join(diagnostic.source.split())}"
-    digest = hashlib.sha256(key.encode()).hexdigest()[:16]
+    digest = hashlib.sha256(key.encode(errors="surrogateescape")).hexdigest()[:16]
     seen[digest] = seen.get(digest, 0) + 1
     return f"{digest}:{seen[digest]}"

@@ -17,6 +17,8 @@ from polycnc.kernels.c_types import SharedObject
 CHOICE, PLAIN = "POLYCNC_KERNELS", "python"
 _SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
 FILE = package_path("kernels", f"compiled{_SUFFIX}")
+#: Bytes of the head of an ELF file, and what systems write of a file at a time.
+_HEAD, _PAGE = 64, 4096
 
 
 class Lack:
@@ -31,21 +33,33 @@ class Lack:
 def load(file: str) -> SharedObject | None:
     """A shared object; None where there is none, none that can be loaded here, or where plain kernels are chosen."""
     try:
-        return SharedObject(file) if is_wanted() and _is_whole(file) else None
+        return SharedObject(file) if is_wanted() and is_whole(file) else None
     except OSError:
         return None
 
 
-def _is_whole(file: str) -> bool:
-    """Whether a file of ELF is as long as its head says: one that is cut short would end the process that loads it."""
+def is_whole(file: str) -> bool:
+    """Whether a file of ELF has all that its head says, and no page that was never written.
+
+    The loader of the system believes what it reads: it would end the process, or run zeros. An interrupted copy, a
+    full disk or a lost power supply leave such files: without their end, or with pages of zeros. The loaders of other
+    systems look themselves.
+
+    Raises:
+        OSError: It cannot be read.
+    """
     with open(file, "rb", 0) as opened:  # noqa: PTH123 - `pathlib` takes a twentieth of a short run to load
-        head, size = opened.read(64), opened.seek(0, os.SEEK_END)
-    if head[:6] != b"\x7fELF\x02\x01":  # 64 bit, the least significant byte first
+        data = opened.read()
+    if data[:6] != b"\x7fELF\x02\x01":  # 64 bit, the least significant byte first
         return True
-    sections, each, count = (
-        int.from_bytes(head[at:end], "little") for at, end in ((40, 48), (58, 60), (60, 62))
+    begin, each, count = (
+        int.from_bytes(data[at:end], "little") for at, end in ((40, 48), (58, 60), (60, 62))
     )
-    return len(head) == 64 and sections + each * count <= size
+    end = begin + each * count  # of the table of sections, which stands behind everything
+    if len(data) < max(end, _HEAD) or not any(data[end - each : end]):
+        return False
+    zeros, last = bytes(_PAGE), len(data) // _PAGE * _PAGE
+    return not any(data.startswith(zeros, at) for at in range(0, last, _PAGE))
 
 
 def is_wanted() -> bool:

@@ -274,8 +274,16 @@ class FileStore:
             message = next(
                 (told for start, told in _TOLD.items() if name.startswith(start)), "memory.unusable"
             )
+            if (
+                message == "memory.unusable" and self._is_read_only
+            ):  # SQLite says only that it could not lock it
+                message = "memory.read-only"
             reason = self._reason(error)
             raise MemoryFileError(message, file=self.path, reason=reason) from error
+
+    @property
+    def _is_read_only(self) -> bool:
+        return self.path.is_file() and os.access(self.path, os.R_OK) and not os.access(self.path, os.W_OK)
 
     def _reason(self, error: sqlite3.Error) -> str:
         """Why a file cannot be opened: what the system says of it, where it says something.

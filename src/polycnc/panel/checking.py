@@ -1,10 +1,12 @@
 """Checks of long programs in a process of their own: neither the control nor a page waits for them.
 
-The process is `python -m polycnc.panel.checking`: a job comes in, what was found goes out.
+The process is `python -m polycnc.panel.checking`: a job comes in, what was found goes out. Where what it reads from is
+closed before, nobody waits for it any more.
 """
 
 from __future__ import annotations
 
+import _thread
 import os
 import pickle
 import sys
@@ -64,9 +66,12 @@ class FarCheck:
 
     def _ask(self, job: Job) -> None:
         try:
-            answer, _ = self._process.communicate(pickle.dumps(job))
-            if self._process.returncode == 0:
-                self.found = Found(*pickle.loads(answer))
+            with suppress(OSError), self._process as process:  # that may have ended before it has read all
+                process.stdin.write(pickle.dumps(job))  # type: ignore[union-attr]
+                process.stdin.flush()  # type: ignore[union-attr]  # and is not closed
+                answer = process.stdout.read()  # type: ignore[union-attr]
+                if process.wait() == 0:
+                    self.found = Found(*pickle.loads(answer))
         finally:
             self.is_over = True
 
@@ -89,8 +94,16 @@ def main() -> None:
     """The process: one job, one answer."""
     with suppress(AttributeError, OSError):
         os.nice(_NICENESS)
-    found = look(pickle.load(sys.stdin.buffer))
+    job = pickle.load(sys.stdin.buffer)
+    _thread.start_new_thread(_end_with_control, ())
+    found = look(job)
     sys.stdout.buffer.write(pickle.dumps((found.program, found.alarms, found.to_the_end)))
+
+
+def _end_with_control() -> None:
+    """In a thread of the process: whoever has killed the control cannot end it."""
+    os.read(sys.stdin.fileno(), 1)  # nothing comes but the end
+    os._exit(1)
 
 
 if __name__ == "__main__":

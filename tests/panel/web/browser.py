@@ -86,21 +86,20 @@ class Browser:
 
 
 @asynccontextmanager
-async def browser(url: str, profile: Path, port: int) -> AsyncIterator[Browser]:
+async def browser(url: str, profile: Path) -> AsyncIterator[Browser]:
     """A page in a new browser, which ends with the block.
 
     Args:
         url: The page.
         profile: Folder for what the browser keeps.
-        port: A free port for its protocol.
     """
     from websockets.asyncio.client import connect
 
     assert CHROMIUM is not None
-    words = [CHROMIUM, *_WORDS, f"--remote-debugging-port={port}", f"--user-data-dir={profile}", url]
+    words = [CHROMIUM, *_WORDS, "--remote-debugging-port=0", f"--user-data-dir={profile}", url]
     process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
-        async with connect(await _page(port), max_size=None) as wire:
+        async with connect(await _page(profile), max_size=None) as wire:
             opened = Browser(wire)
             await opened.sized(1280, 800)
             await opened.until("window.did_handshake === true")  # on a busy machine a page may come twice
@@ -110,15 +109,18 @@ async def browser(url: str, profile: Path, port: int) -> AsyncIterator[Browser]:
         process.wait(timeout=PATIENCE_S)
 
 
-async def _page(port: int) -> str:
+async def _page(profile: Path) -> str:
+    """Where a page talks its protocol; the browser has chosen a port and written it down."""
+    told = profile / "DevToolsActivePort"
     end = monotonic() + PATIENCE_S
     while monotonic() < end:
         try:
-            with urllib.request.urlopen(f"http://127.0.0.1:{port}/json", timeout=5) as listed:
+            port = int(told.read_text(encoding="ascii").split("\n")[0])
+            with urllib.request.urlopen(f"http://127.0.0.1:{port}/json", timeout=PATIENCE_S) as listed:
                 pages = [each for each in json.load(listed) if each["type"] == "page"]
             if pages:
                 return str(pages[0]["webSocketDebuggerUrl"])
-        except OSError:
+        except (OSError, ValueError):  # it has not yet
             pass
         await asyncio.sleep(0.2)
     raise AssertionError("the browser does not answer")

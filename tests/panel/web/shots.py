@@ -43,7 +43,7 @@ async def shoot(control: str, example: str, folder: Path) -> None:
         while status(f"127.0.0.1:{port}") == 0:
             await asyncio.sleep(0.2)
         with TemporaryDirectory() as profile:
-            async with browser(f"http://127.0.0.1:{port}/", Path(profile), free_port()) as page:
+            async with browser(f"http://127.0.0.1:{port}/", Path(profile)) as page:
                 await page.until("!!document.querySelector('.crt-body td')")
                 await page.evaluate("document.querySelector('button.k.start').click()")
                 await asyncio.sleep(6.0)

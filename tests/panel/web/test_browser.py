@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.panel.web.browser import CHROMIUM, browser
-from tests.panel.web.test_server import address, free_port
+from tests.panel.web.test_server import address
 
 pytest.importorskip("nicegui")
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")
@@ -52,7 +52,7 @@ _SCREEN = "document.querySelector('.crt-body').innerText"
 
 def test_a_program_is_run_edited_and_shown_in_both_languages(address: str, tmp_path: Path) -> None:
     async def journey() -> None:
-        async with browser(f"http://{address}/", tmp_path / "profile", free_port()) as page:
+        async with browser(f"http://{address}/", tmp_path / "profile") as page:
             await page.press("Cycle start (SW4)")
             await page.until(f"{_SCREEN}.includes('5.000')")
             assert await page.evaluate(_FITS)
@@ -75,7 +75,7 @@ def test_a_program_is_run_edited_and_shown_in_both_languages(address: str, tmp_p
 
 def test_the_picture_has_the_path_and_the_trail(address: str, tmp_path: Path) -> None:
     async def journey() -> None:
-        async with browser(f"http://{address}/", tmp_path / "profile", free_port()) as page:
+        async with browser(f"http://{address}/", tmp_path / "profile") as page:
             await page.press("CSTM/GR")
             await page.until("Number(document.querySelector('.picture')?.dataset.points) > 1")
             await page.press("Top")
@@ -104,7 +104,7 @@ def test_axe_finds_nothing_serious(address: str, tmp_path: Path) -> None:
       .filter(each => ['serious', 'critical'].includes(each.impact)).map(each => each.id + ' ' + each.nodes[0].html))"""
 
     async def journey() -> None:
-        async with browser(f"http://{address}/", tmp_path / "profile", free_port()) as page:
+        async with browser(f"http://{address}/", tmp_path / "profile") as page:
             await page.until("!!document.querySelector('.crt-body td')")
             await page.evaluate(AXE.read_text(encoding="utf-8") + ";0")
             assert await page.evaluate(found) == []

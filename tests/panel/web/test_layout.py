@@ -9,7 +9,7 @@ import pytest
 
 from polycnc.panel.description import PANELS
 from tests.panel.web.browser import CHROMIUM, browser
-from tests.panel.web.test_server import free_port, served
+from tests.panel.web.test_server import served
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -116,7 +116,7 @@ def test_the_page_of_every_family_fits_into_screens_and_tablets(
     found: list[str] = []
 
     async def journey() -> None:
-        async with browser(f"http://{address}/", tmp_path / "profile", free_port()) as page:
+        async with browser(f"http://{address}/", tmp_path / "profile") as page:
             for control in PANELS:
                 await page.goes_to(f"http://{address}/{control}")
                 await page.until(_READY)
@@ -132,7 +132,7 @@ def test_the_page_of_every_family_fits_into_screens_and_tablets(
 
 def test_tab_goes_through_the_page_in_reading_order(address: str, tmp_path: Path) -> None:
     async def journey() -> None:
-        async with browser(f"http://{address}/", tmp_path / "profile", free_port()) as page:
+        async with browser(f"http://{address}/", tmp_path / "profile") as page:
             for control in PANELS:
                 await page.goes_to(f"http://{address}/{control}")
                 await page.until(_READY)

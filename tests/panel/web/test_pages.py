@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import json
-import subprocess
-import sys
-from time import monotonic, sleep
 from typing import TYPE_CHECKING
 
 import pytest
@@ -16,8 +13,8 @@ from polycnc.mainrun import VirtualControl
 from polycnc.messages.catalogue import LANGUAGES
 from polycnc.panel.web.desk import Desk
 from polycnc.panel.web.markup import of_view
-from tests.panel.web.browser import CHROMIUM, PATIENCE_S, browser
-from tests.panel.web.test_server import environment, free_port, status
+from tests.panel.web.browser import CHROMIUM, browser
+from tests.panel.web.test_server import served
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -42,18 +39,11 @@ _BEYOND = """(() => {
 
 
 @pytest.fixture
-def server() -> Iterator[str]:
+def server(tmp_path: Path) -> Iterator[str]:
     """A server of all controls, each under its own address."""
-    port = free_port()
     words = [word for control in ids() for word in ("--control", control)]
-    command = [sys.executable, "-m", "polycnc", "panel", "--no-open", "--port", str(port), *words]
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, env=environment())
-    address, until = f"127.0.0.1:{port}", monotonic() + PATIENCE_S
-    while monotonic() < until and status(address) == 0:
-        sleep(0.2)
-    yield address
-    process.terminate()
-    process.wait(timeout=PATIENCE_S)
+    with served(tmp_path, *words) as found:
+        yield found
 
 
 def pages_of(control: str) -> Iterator[tuple[str, str]]:
@@ -73,7 +63,7 @@ def pages_of(control: str) -> Iterator[tuple[str, str]]:
 def test_every_page_fits_into_its_screen(server: str, tmp_path: Path) -> None:
     async def journey() -> list[str]:
         beyond = []
-        async with browser(f"http://{server}/", tmp_path / "profile", free_port()) as page:
+        async with browser(f"http://{server}/", tmp_path / "profile") as page:
             assert await page.evaluate("document.querySelectorAll('a').length") == len(ids())
             for control in ids():
                 await page.goes_to(f"http://{server}/{control}")

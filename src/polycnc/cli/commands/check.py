@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import gc
 import os
 import signal
@@ -109,13 +110,31 @@ def _shared(
 
     first = run(files[0])  # with it everything is loaded that the workers need
     gc.freeze()  # so that no worker looks through it again
-    context = get_context("fork" if sys.platform == "linux" else "spawn")
-    pool = ProcessPoolExecutor(count, mp_context=context, initializer=_begin_worker, initargs=(language(),))
+    try:
+        context = get_context("fork" if sys.platform == "linux" else "spawn")
+        begin = partial(_begin_worker, language())
+        pool = ProcessPoolExecutor(count, mp_context=context, initializer=begin)
+    except (
+        ImportError,
+        NotImplementedError,
+        OSError,
+    ):  # a system that shares no locks, or has no place for them
+        return chain((first,), map(run, files[1:]))
     workers.enter_context(pool)
     others = active_children()
     workers.push(lambda error, *_: _kill_where(error, others))
     with alone(), _no_interrupt():  # no thread writes, loads or holds anything while the process is copied
-        return chain((first,), pool.map(run, files[1:], chunksize=SHARED))
+        return chain((first,), _told_if_killed(pool.map(run, files[1:], chunksize=SHARED)))
+
+
+def _told_if_killed(found: Iterable[_Checked]) -> Iterator[_Checked]:
+    """The same. Raises `UserError` where a worker has been killed."""
+    from concurrent.futures import BrokenExecutor
+
+    try:
+        yield from found
+    except BrokenExecutor as error:
+        raise UserError("check.killed") from error
 
 
 @contextmanager
@@ -137,7 +156,18 @@ def _begin_worker(chosen: str) -> None:
         signal.signal(each, signal.SIG_IGN)
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, _INTERRUPTS)
+    _thread.start_new_thread(_end_with_command, ())
     set_language(chosen)
+
+
+def _end_with_command() -> None:
+    """In a thread of a worker: where the command is killed, nobody is left who ends the worker."""
+    from multiprocessing import parent_process
+
+    command = parent_process()
+    if command is not None:
+        command.join()
+        os._exit(1)
 
 
 def _kill_where(error: type[BaseException] | None, others: list[BaseProcess]) -> None:

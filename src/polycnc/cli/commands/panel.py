@@ -9,6 +9,7 @@ from polycnc.cli import options
 from polycnc.cli.console import fail, say
 from polycnc.cli.declaration import Argument, Commands, Option, Path
 from polycnc.cli.progress import end as end_of_waiting
+from polycnc.deferred.contexts import ExitStack
 from polycnc.deferred.typing import TYPE_CHECKING, Annotated
 from polycnc.messages import text
 from polycnc.messages.catalogue import language
@@ -56,10 +57,11 @@ def panel(
     _lang: options.Lang = None,
 ) -> int:
     """Serve one control, or several, each under its own address."""
+    from polycnc.cli.output import refuse_unwritable
     from polycnc.control.registry import ids
     from polycnc.messages.catalogue import listed
     from polycnc.panel.web.desk import Desk
-    from polycnc.panel.web.server import build, check_address, needs_token, serve
+    from polycnc.panel.web.server import build, check_address, closing, needs_token, serve
     from polycnc.session import SessionError
 
     task = _exercise(exercise) if exercise else None
@@ -72,6 +74,8 @@ def panel(
         return fail(text("panel.one-control"), 2)
     if card is not None and not card.is_dir():
         return fail(text("file.unreadable", file=card, reason=text("file.no-folder")), 2)
+    for output in filter(None, (sheet, record)):
+        refuse_unwritable(output)
     check_address(host, port)
     desks: dict[str, Desk] = {}
     for each in chosen:
@@ -85,10 +89,11 @@ def panel(
     named = f"[{host}]" if ":" in host else host
     say(f"http://{named}:{port}/" + (f"?token={token}" if token else ""))
     end_of_waiting()
-    try:
-        serve(host=host, port=port, opens=not no_open)
-    finally:
-        _keep(desks.values(), sheet, record)
+    with closing() as interrupts:
+        try:
+            serve(interrupts, host=host, port=port, opens=not no_open)
+        finally:
+            _keep(desks.values(), sheet, record)
     return 0
 
 
@@ -143,11 +148,14 @@ def _teach(desk: Desk, task: Exercise | None, replay: Path | None) -> None:
 
 
 def _keep(desks: Iterable[Desk], sheet: Path | None, record: Path | None) -> None:
-    """Close the controls, and write what a teacher takes away from the first one."""
-    for each in desks:
-        each.control.close()
-    desk = next(iter(desks))
-    if sheet is not None and desk.lesson is not None:
-        sheet.write_text(desk.lesson.sheet(language()), encoding="utf-8")
-    if record is not None:
-        record.write_text(desk.recording.text(), encoding="utf-8")
+    """Write what a teacher takes away from the first control, and close all; each whatever becomes of the others."""
+    from polycnc.cli.output import write_whole
+
+    with ExitStack() as last:
+        for each in desks:
+            last.callback(each.control.close)
+        desk = next(iter(desks))
+        if sheet is not None and desk.lesson is not None:
+            last.callback(lambda lesson: write_whole(sheet, lesson.sheet(language())), desk.lesson)
+        if record is not None:
+            last.callback(lambda: write_whole(record, desk.recording.text()))

@@ -8,5 +8,6 @@ editor    the program editor
 teacher   the sheet with exercise and faults
 messages  the JSON interface: commands in, snapshots out
 guard     who may come in: token, origin
+interrupts  how the server is told to close
 server    all of it together
 """

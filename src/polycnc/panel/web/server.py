@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import errno
-import signal
+import logging
 import socket
-from contextlib import contextmanager
 from importlib import resources
 
 from fastapi import Response, WebSocket, WebSocketDisconnect
@@ -14,17 +13,20 @@ from nicegui import app, ui
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.messages import UserError, text
 from polycnc.panel.web.guard import LOOPBACK, Guard
+from polycnc.panel.web.interrupts import Interrupts
 from polycnc.panel.web.messages import answer
 from polycnc.panel.web.page import Page
 from polycnc.view.web import delivery
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Mapping
 
     from polycnc.panel.web.desk import Desk
 
 #: A browser that a busy computer keeps away for so long, s, goes on with the same page.
 RECONNECT_S = 30.0
+#: So long, s, the server waits for answers that it has begun when it closes.
+CLOSING_S = 5
 #: How often the time of the controls goes on, s.
 TICK_S = 0.02
 #: Why no server can listen at an address, by what the system says; for everything else there is no such address.
@@ -108,37 +110,31 @@ def check_address(host: str, port: int) -> None:
         raise UserError(told, host=host, port=port) from None
 
 
-def serve(*, host: str, port: int, opens: bool) -> None:
+def serve(interrupts: Interrupts, *, host: str, port: int, opens: bool) -> None:
     """Run the server until it is interrupted.
 
-    Raises:
-        KeyboardInterrupt: It has been, once or several times; it is raised when all is closed.
+    Args:
+        interrupts: By `closing`, entered.
+        host: Where it listens.
+        port: See `host`.
+        opens: A browser is opened.
     """
-    with patience(lambda: app.is_started or app.is_stopping or app.is_stopped):
+    app.on_startup(interrupts.begin_to_serve)
+    try:
         ui.run(
             host=host, port=port, show=opens, reload=False, title="polycnc", favicon="⚙",
             show_welcome_message=False, binding_refresh_interval=None, reconnect_timeout=RECONNECT_S,
+            timeout_graceful_shutdown=CLOSING_S,
         )  # fmt: skip
-
-
-@contextmanager
-def patience(is_up: Callable[[], bool]) -> Iterator[None]:
-    """One interrupt is raised when the server has closed, which hands them on then; further ones would break that.
-
-    Args:
-        is_up: Whether the server answers interrupts itself; before that they are raised at once.
-    """
-    told: list[int] = []
-
-    def hear(number: int, _frame: object) -> None:
-        told.append(number)
-        if not is_up():
-            raise KeyboardInterrupt
-
-    before = signal.signal(signal.SIGINT, hear)
-    try:
-        yield
     finally:
-        signal.signal(signal.SIGINT, before)
-    if told:
-        raise KeyboardInterrupt
+        interrupts.end()
+
+
+def closing() -> Interrupts:
+    """What closes the server when it is interrupted."""
+
+    def close() -> None:
+        logging.getLogger("uvicorn.error").disabled = True  # it tells of answers that nobody waits for
+        app.shutdown()
+
+    return Interrupts(close)
