@@ -522,7 +522,7 @@ class Preprocessing:
         records: array[float], width: int,
     ) -> Iterator[tuple[int, float, Limits]]:  # fmt: skip
         """Of each piece the largest squared speed at its start, by what the operator has set, and its limits."""
-        at, closed, end = 0, False, len(records)
+        at, closed, end, asked = 0, False, len(records), self.queue.asked
         for item in self.items:
             closed = closed or (stops is not None and stops(item))
             if isinstance(item, Block):
@@ -530,15 +530,13 @@ class Preprocessing:
             elif isinstance(item, BlockEnd):
                 closed = closed or single_block
             elif isinstance(item, Move):
-                row, done = records[at + PieceRecord.ROW], item.done
+                row = records[at + PieceRecord.ROW]
                 while at < end and records[at + PieceRecord.ROW] == row:
-                    share = records[at + PieceRecord.LENGTH] / item.total
                     laid2 = records[at + PieceRecord.CAP2]
-                    own = rates.cap2(item, laid2, self.queue.asked(item, laid2, done + 0.5 * share))
+                    own = rates.cap2(item, laid2, asked(item, laid2, records[at + PieceRecord.ASKED]))
                     entry2 = 0.0 if closed else min(records[at + PieceRecord.ENTRY2], cap2, own)
                     yield at, entry2, item.limits
                     cap2, closed = own * risen(records, at), False
-                    done += share
                     at += width
 
     @property
@@ -565,9 +563,8 @@ class Preprocessing:
         """Largest squared speed on the piece in front."""
         move = self.items[0]
         assert isinstance(move, Move)
-        length, laid2 = self._buffer.front(PieceRecord.LENGTH), self._buffer.front(PieceRecord.CAP2)
-        middle = move.done + 0.5 * length / move.total
-        return rates.cap2(move, laid2, self.queue.asked(move, laid2, middle))
+        laid2, asked = self._buffer.front(PieceRecord.CAP2), self._buffer.front(PieceRecord.ASKED)
+        return rates.cap2(move, laid2, self.queue.asked(move, laid2, asked))
 
     def begin_elsewhere(self, move: Move | Piece, start: Sequence[float]) -> None:
         """The rest of a row goes to its end from another start; the axes rest at both."""
