@@ -204,6 +204,20 @@ class Preprocessing:
         self.revised = self.revised or len(self.items) > before
         return len(self.items) > before
 
+    def ends_with_piece(self, *, one_block: bool) -> bool:
+        """Whether a row to come could still change the piece in front; the channel runs ahead until that is known.
+
+        So what lies behind blocks that only calculate is prepared while the axes move, however many they are.
+        """
+        before = len(self.items)
+        for _ in range(BLOCKS_AHEAD):
+            is_last = not self._rests() and self._buffer.may_change
+            if not is_last or self._halts_ahead(one_block=one_block):
+                break
+            self._step()
+        self.revised = self.revised or len(self.items) > before
+        return is_last
+
     def row_to_rest_before(
         self, *, gated: bool, single_block: bool, stops: Callable[[Item], bool] | None, first: float = -inf
     ) -> float:
@@ -474,7 +488,7 @@ class Preprocessing:
 
     def _lag(self) -> float:
         """Seconds by which the axes of the thread in front are behind its spindle, up to speed."""
-        if self.is_last_piece:
+        if self.ends_with_piece(one_block=self.one_block):
             self.end_in_rest()
             self.revised = True
         return self._buffer.lag
@@ -576,11 +590,6 @@ class Preprocessing:
         records, moves = line_from(move, start, fields, self._rows.real.limits(None, use))
         self._buffer.put_in_front(records)
         self.items.extendleft(moves)
-
-    @property
-    def is_last_piece(self) -> bool:
-        """Whether a row to come could still change the piece in front, and nobody knows when one will come."""
-        return not self._rests() and self._buffer.may_change
 
     @property
     def axes(self) -> int:
