@@ -371,8 +371,9 @@ class Execution:
             self._turn_spindle(item.context)
             self.context = item.context
             self.rates.enter(item.context)
-            self._until = self.clock.time + item.wait_s(self.clock.time)
-            self._without_way = 0
+            seconds = item.wait_s(self.clock.time)
+            self._until = self.clock.time + seconds
+            self._without_way *= seconds < self.clock.cycle_s
             self._dwell_signal, self.stands_for = item.context.dwell_signal, item.why
             if item.is_asked_again and self._until > self.clock.time:
                 self.preprocessing.items.appendleft(item)
