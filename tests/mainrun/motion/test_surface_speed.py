@@ -119,3 +119,13 @@ def test_the_radius_is_that_of_the_place_on_arcs_spirals_and_helices(growth: flo
     for angle in (0.0, 0.7, 1.3, 2.0):
         put_arc_place(angle, 3, told, state, place, 0)
         assert facing_radius(angle, told, state) == pytest.approx(20.0 + place[0])
+
+
+def test_a_thread_follows_the_spindle_at_every_radius_whatever_f_counts() -> None:
+    """The spindle follows the radius on a taper, and the thread the spindle (FANUC 0i-TF Plus II.3.1)."""
+    times = []
+    for feed in ("G99", "G98"):
+        text = f"O1\nG21\nG50 S3000\nG0 X40. Z2.\nG96 S100 M3\n{feed}\nG32 X80. Z-20. F1.\nM30\n"
+        times.append(planned(text, "fanuc-0i-tf", "lathe2"))
+        assert executed(text, "fanuc-0i-tf", "lathe2") == pytest.approx(times[-1], abs=1e-6)
+    assert times[0] == times[1]
