@@ -209,12 +209,11 @@ class Preprocessing:
 
         So what lies behind blocks that only calculate is prepared while the axes move, however many they are.
         """
-        before = len(self.items)
-        for _ in range(BLOCKS_AHEAD):
-            is_last = not self._rests() and self._buffer.may_change
-            if not is_last or self._halts_ahead(one_block=one_block):
-                break
+        is_last = not self._rests() and self._buffer.may_change
+        before, left = len(self.items), BLOCKS_AHEAD
+        while is_last and left > 0 and not self._halts_ahead(one_block=one_block):
             self._step()
+            is_last, left = not self._rests() and self._buffer.may_change, left - 1
         self.revised = self.revised or len(self.items) > before
         return is_last
 
