@@ -6,7 +6,7 @@ from unittest.mock import patch
 
 import pytest
 
-from polycnc.mainrun.execution.execution import BLOCK_S, PREPARED, Execution
+from polycnc.mainrun.execution.execution import BLOCK_S, FREE_BLOCKS, Execution
 from polycnc.mainrun.preparation.preprocessing import BLOCKS_A_CYCLE, MOST, Preprocessing
 from tests.mainrun.support import power_on
 
@@ -35,19 +35,20 @@ def test_time_passes_in_a_loop_without_a_way(control: str, program: str) -> None
     assert virtual.time < 5.0
 
 
-def test_what_is_prepared_costs_no_time() -> None:
-    virtual = power_on("O1\n" + "G90\n" * 300 + "G4 P1000\n" + "G91\n" * 300 + "M30\n")
+@pytest.mark.parametrize("blocks", ["G90\n", "#1=#1+1\n"])
+def test_blocks_without_a_way_cost_no_time(blocks: str) -> None:
+    virtual = power_on("O1\n" + blocks * 3000 + "G4 P1000\n" + blocks * 9000 + "M30\n")
     virtual.cycle_start()
     virtual.run()
     assert virtual.time == pytest.approx(1.0, abs=0.005)
 
 
-def test_a_block_behind_what_is_prepared_costs_its_time() -> None:
+def test_a_block_behind_very_many_without_a_way_costs_its_time() -> None:
     virtual = power_on("O1\nG90\nM99\n")
     virtual.cycle_start()
     with patch.object(Execution, "_enter", autospec=True, side_effect=Execution._enter) as entered:
         virtual.run(limit_s=4.0)
-    assert (entered.call_count - PREPARED) * BLOCK_S == pytest.approx(4.0, rel=0.01)
+    assert (entered.call_count - FREE_BLOCKS) * BLOCK_S == pytest.approx(4.0, rel=0.01)
 
 
 def test_speeds_are_planned_once_for_many_blocks_without_a_way() -> None:

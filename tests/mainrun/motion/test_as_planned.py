@@ -60,6 +60,14 @@ DOUBTFUL: dict[str, tuple[str, str, dict[str, object]]] = {
         "sinumerik-840d", f"G642 G1 F20000 OSD\n$SC_ORI_SMOOTH_DIST=2\n{TO_AND_FRO}", {"machine": "mill5-ca-head"},
     ),
 }  # fmt: skip
+#: Two blocks between which very many have no way: each calculates, changes nothing, or repeats a point.
+BETWEEN = {
+    "sinumerik-840d": ("G64 BRISK G1 X10 F3000\n", "X20 Y1\nY20\nM30\n", ("R1=R1+1\n", "G90\n", "X10\n")),
+    "fanuc-m": ("G64 G1 X10. F3000\n", "X20. Y1.\nY20.\nM30\n", ("#1=#1+1\n", "G90\n", "X10.\n")),
+    "meldas-m": ("G64 G1 X10. F3000\n", "X20. Y1.\nY20.\nM30\n", ("#1=#1+1\n", "G90\n", "X10.\n")),
+    "syntec-mill": ("G64 G1 X10. F3000\n", "X20. Y1.\nY20.\nM30\n", ("G90\n", "X10.\n")),
+    "fanuc-0i-tf": ("G98 G1 X10. F3000\n", "X20. Z1.\nZ20.\nM30\n", ("#1=#1+1\n", "G98\n", "X10.\n")),
+}
 #: Blocks that a law leads and that a function outlasts: the axes rest behind them in any case.
 OUTLASTED = [
     "G0 X2.515 Y-29.513\nG0 X-23.644 Y8.649 M8\nG2 X-23.6492 Y8.2103 I-1.96125 J-0.19613 M8 F6000\nM30\n",
@@ -127,3 +135,17 @@ def test_the_axes_rest_behind_a_run_by_law_that_a_function_outlasts(blocks: str)
     assert virtual.run() is State.READY
     end = next(record.time for record in reversed(records) if record.what == "state")
     assert end == pytest.approx(planned, abs=2.0 * PERIOD)
+
+
+@pytest.mark.parametrize("count", [300, 3000])
+@pytest.mark.parametrize("control", BETWEEN)
+def test_the_axes_wait_for_no_block_without_a_way(control: str, count: int) -> None:
+    before, behind, between = BETWEEN[control]
+    planned = sampled(before + behind, control).time[-1]
+    for block in between:
+        virtual = power_on(before + count * block + behind, control)
+        records = recorded(virtual)
+        virtual.cycle_start()
+        assert virtual.run() is State.READY
+        end = next(record.time for record in reversed(records) if record.what == "state")
+        assert end == pytest.approx(planned, abs=PERIOD + 1e-6), block

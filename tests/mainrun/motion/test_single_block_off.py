@@ -102,3 +102,15 @@ def test_where_it_is_too_late_to_come_down_to_the_bend_behind_an_arc_the_axes_re
     _, places = run(text, off)
     assert np.abs(np.diff(places, 2, axis=0)).max() <= PULL * 1e-6 * 1.002
     assert places[-1] == pytest.approx([-0.76, 7.473, 0.0])
+
+
+@pytest.mark.parametrize("off", [0.109, 0.111, 0.113, 0.115])
+def test_an_order_while_the_axes_brake_along_a_curve_leaves_no_speed_at_its_end(off: float) -> None:
+    # The first block has no way: single block halts behind it, and is off already when the axes brake.
+    text = (
+        "BRISK G642 CTOL=0.02\nG3 X-12.0785 Y5.4765 I=AC(-9.10407) J=AC(-4.02130) F12000\n"
+        "G2 X-15.6158 Y5.6050 I=AC(-13.66541) J=AC(10.54382) F20000\nM30\n"
+    )
+    _, places = run(text, off)
+    assert np.abs(np.diff(places, 2, axis=0)).max() <= PULL * 1e-6 * 1.002
+    assert places[-1] == pytest.approx([-15.6158, 5.605, 0.0])

@@ -24,7 +24,7 @@ SAME_MM = 1e-6
 #: Squared speed below which the axes stand, (mm/s)².
 REST2 = 1e-9
 #: By so much the squared speed may differ from what the look-ahead allows where the axes brake along a curve.
-LITTLE = 2e-3
+LITTLE = 1e-6
 
 
 class ByPieces:

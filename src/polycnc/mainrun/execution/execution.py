@@ -16,6 +16,7 @@ from polycnc.mainrun.execution.by_pieces import REST2, ByPieces
 from polycnc.mainrun.motion.law_motion import LawMotion
 from polycnc.mainrun.motion.piece_motion import Motion, PathMotion
 from polycnc.mainrun.preparation.items import Block, BlockEnd, ChannelRates, Happening, Move, Rates, Standing
+from polycnc.mainrun.preparation.preprocessing import BLOCKS_A_CYCLE, Preprocessing
 from polycnc.motion.frames import with_axis
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.events import Deed
@@ -28,11 +29,11 @@ if TYPE_CHECKING:
     from polycnc.mainrun.execution.clock import Clock
     from polycnc.mainrun.execution.outside import Machinery
     from polycnc.mainrun.preparation.items import Item, Piece
-    from polycnc.mainrun.preparation.preprocessing import Preprocessing
 
-#: What the control needs for a block, s; so many are prepared when the axes rest, and executed in no time; so often a
-#: program may ask there for what the main run knows before that takes an interpolation cycle each time.
-BLOCK_S, PREPARED, ASKED = 0.001, 512, 100
+#: Blocks are prepared while the axes move, and take no time; so that a loop that never ends lasts all the same, a block
+#: takes this, s, behind so many without a way. So often a program may ask where the axes rest for what the main run
+#: knows before that takes an interpolation cycle each time.
+BLOCK_S, FREE_BLOCKS, ASKED = 0.001, 10_000, 100
 
 
 class Execution:
@@ -90,7 +91,7 @@ class Execution:
         self._gated = self._waiting = self._stands = self._blocked = self._moved_on = False
         self.position, self._by_hand = list(position), tuple[float, ...]()
         self._skip_after_s, self._skips_at = skip_after_s, inf
-        self._worked_until, self._asked, self._acted = -inf, 0, False
+        self._without_way, self._asked, self._acted = 0, 0, False
         self._pieces = ByPieces(preprocessing, self.rates, clock)
         self._by_law = ByLaw(preprocessing, self.rates, clock, self._rest_before)
 
@@ -296,7 +297,9 @@ class Execution:
     def _run_out(self, *, filled: bool) -> bool:
         """Nothing is prepared."""
         if not filled:
-            self._until = self.clock.time + self.clock.cycle_s  # the program computes
+            self._without_way += BLOCKS_A_CYCLE
+            if self._without_way > FREE_BLOCKS:
+                self._until = self.clock.time + self.clock.cycle_s  # the program computes
             return True
         waiting = self.preprocessing.waiting
         self._take_in_offset()
@@ -355,7 +358,9 @@ class Execution:
         self.preprocessing.items.popleft()
         if isinstance(item, Block):
             self._enter(item)
-            self._work()
+            self._without_way += 1
+            if self._without_way > FREE_BLOCKS and self._x2 == 0.0:
+                self._until = max(self._until, self.clock.time + BLOCK_S)
         elif isinstance(item, BlockEnd):
             halts = self.single_block and not self.context.stop_delay
             self.context = item.context or self.context
@@ -366,7 +371,9 @@ class Execution:
             self._turn_spindle(item.context)
             self.context = item.context
             self.rates.enter(item.context)
-            self._until = self.clock.time + item.wait_s(self.clock.time)
+            seconds = item.wait_s(self.clock.time)
+            self._until = self.clock.time + seconds
+            self._without_way *= seconds < self.clock.cycle_s
             self._dwell_signal, self.stands_for = item.context.dwell_signal, item.why
             if item.is_asked_again and self._until > self.clock.time:
                 self.preprocessing.items.appendleft(item)
@@ -383,13 +390,6 @@ class Execution:
     def _turn_spindle(self, context: Context) -> None:
         """The spindle's angle follows what the operator has set."""
         self.preprocessing.turn_spindle(context, self.rates.spindle, self.clock.time)
-
-    def _work(self) -> None:
-        """A block costs the control its time: a loop without a way, which has used up what was prepared, lasts."""
-        ready = self.clock.time - BLOCK_S * PREPARED
-        self._worked_until = max(self._worked_until, ready) + BLOCK_S
-        if self._x2 == 0.0:
-            self._until = max(self._until, self._worked_until)
 
     def _enter(self, block: Block) -> None:
         self.block, self.modal = block, block.modal
@@ -420,7 +420,7 @@ class Execution:
             self._take_up(led.piece, cap2)
             return True
         cap2 = self.preprocessing.front_cap2(self.rates)  # it may have been laid out again
-        if self.preprocessing.is_last_piece:
+        if self.preprocessing.ends_with_piece(one_block=self.single_block):
             self.preprocessing.end_in_rest(is_all=True)
             self.preprocessing.revised = True
         if self.preprocessing.revised:
@@ -437,7 +437,7 @@ class Execution:
     def _take_up(self, piece: Piece, cap2: float) -> None:
         """A piece, or a row, is in execution."""
         self._turn_spindle(piece.context)
-        self._cap2, self._rise, self._asked = cap2, piece.rise, 0
+        self._cap2, self._rise, self._asked, self._without_way = cap2, piece.rise, 0, 0
         self.context = self.place = piece.context
         if self.block is not None and (self.block.program, self.block.line) != (piece.program, piece.line):
             self._enter(self.block.followed_by(piece.program, piece.line, self.modal))

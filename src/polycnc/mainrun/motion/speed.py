@@ -230,6 +230,9 @@ def curved_profile(
     length, curve = record[PieceRecord.LENGTH], limits_of(record, axes, limits)
     low, high = curve.lowest(length, start2), bound2(record, 0, axes, limits, start2, False)[0]
     end2 = min(aim2, max(high, 0.0), cap2)
+    if low > end2 and record[PieceRecord.MARGIN] > 1.0:
+        # From within a piece, or a little too fast, it takes of what MARGIN leaves, or the end would come too fast.
+        low = min(low, max(limits_of(record, axes, limits, as_stored=False).lowest(length, start2), end2))
     if start2 > cap2 * (1.0 + SAME) or end2 < low * (1.0 - CLOSE):
         hardest = curve.brake(start2)
         rest2 = start2 - 2.0 * hardest * length
@@ -250,10 +253,14 @@ def curved_profile(
     return straight_profile(length, start2, end2, peak2, rate)
 
 
-def limits_of(record: Sequence[float], axes: int, limits: MachineLimits) -> Limits:
-    """The limits of a curved piece from its record and those of the machine (`kernels/columns.py`)."""
+def limits_of(record: Sequence[float], axes: int, limits: MachineLimits, *, as_stored: bool = True) -> Limits:
+    """The limits of a curved piece from its record and those of the machine (`kernels/columns.py`).
+
+    Its q' and q'' are larger than they are by MARGIN if they are taken as they are stored.
+    """
+    margin, first = 1.0 if as_stored else record[PieceRecord.MARGIN], PieceRecord.VECTORS
     blocks = [
-        tuple(record[PieceRecord.VECTORS + k * axes : PieceRecord.VECTORS + (k + 1) * axes]) for k in range(4)
+        tuple(value / margin for value in record[first + k * axes : first + (k + 1) * axes]) for k in range(4)
     ]
     return Limits(blocks[0], blocks[2], blocks[1], blocks[3], tuple(limits.acceleration))
 

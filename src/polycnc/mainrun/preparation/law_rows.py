@@ -7,9 +7,9 @@ from math import inf
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
-from polycnc.motion.kernels.arcs import asked_on_arc, facing_radius
+from polycnc.motion.kernels.arcs import asked_on_arc
 from polycnc.motion.kernels.columns import ContextRecord, new_state
-from polycnc.motion.kernels.feeds import follows_radius
+from polycnc.motion.kernels.feeds import counted_length, follows_radius, radius_on_line, straight_speed
 from polycnc.motion.third_order.bends.stretches import ARC
 from polycnc.motion.third_order.laying.room import RunRoom
 from polycnc.motion.third_order.laying.rows import NO_STRETCH, add_row, begin_run, goes_by_law
@@ -89,8 +89,8 @@ class LawRows:
         count = room.laid.stretches
         if count == first:
             return True  # it has no way
-        if room.path.form[first] == ARC and follows_radius(contexts, record):
-            move.asks = self._asks_of_arc(prepared, record, contexts, first)
+        if follows_radius(contexts, record, room.lead):
+            move.asks = self._asks(prepared, record, contexts, first)
         end, top2 = room.path.way[count], min(room.path.cap2[first:count])
         row = RowOfRun(move, begin, end, top2)
         self.rows.append(row)
@@ -103,21 +103,25 @@ class LawRows:
             room.path.cap2[e] = cap2 or room.path.cap2[e]
         return True
 
-    def _asks_of_arc(
+    def _asks(
         self, prepared: PreparedRow, record: int, contexts: array[float], first: int
     ) -> tuple[tuple[float, float], ...]:
-        """What the program asks for in the stretches of an arc whose spindle follows the radius, by shares of its way.
+        """What the program asks for in the stretches of a row whose spindle follows the radius, by shares of its way.
 
-        Each has the radius in its middle, the first one that at its start, as `add_arc` has it.
+        Each has the radius in its middle, as in the plan (`add_line`, `add_arc`).
         """
-        room, limits = self._room, prepared.limits
-        count = room.laid.stretches - first
-        begin, step = room.path.way[first], room.lead.arc.sweep / count
-        length, asks = room.path.way[first + count] - begin, []
+        lead, limits, way = self._room.lead, prepared.limits, self._room.path.way
+        count, begin = self._room.laid.stretches - first, way[first]
+        told, asks = (prepared.curves, contexts, record), []
         for part in range(count):
-            radius = facing_radius((part + 0.5) * step if part else 0.0, limits, room.lead)
-            asked = asked_on_arc(prepared.curves, contexts, record, limits, room.lead, length, radius)
-            share = (room.path.way[first + part + 1] - begin) / length
+            middle = (part + 0.5) / count
+            if self._room.path.form[first] == ARC:
+                asked = asked_on_arc(*told, limits, lead, way[first + count] - begin, middle)
+            else:
+                length, weight = counted_length(contexts, record, self._n, limits, lead)
+                radius = radius_on_line(contexts, record, limits, lead, middle)
+                asked = straight_speed(*told, lead, length, radius, weight)
+            share = (way[first + part + 1] - begin) / (way[first + count] - begin)
             asks.append((share, asked if asked > 0.0 else inf))
         return tuple(asks)
 

@@ -204,6 +204,19 @@ class Preprocessing:
         self.revised = self.revised or len(self.items) > before
         return len(self.items) > before
 
+    def ends_with_piece(self, *, one_block: bool) -> bool:
+        """Whether a row to come could still change the piece in front; the channel runs ahead until that is known.
+
+        So what lies behind blocks that only calculate is prepared while the axes move, however many they are.
+        """
+        is_last = not self._rests() and self._buffer.may_change
+        before, left = len(self.items), BLOCKS_AHEAD
+        while is_last and left > 0 and not self._halts_ahead(one_block=one_block):
+            self._step()
+            is_last, left = not self._rests() and self._buffer.may_change, left - 1
+        self.revised = self.revised or len(self.items) > before
+        return is_last
+
     def row_to_rest_before(
         self, *, gated: bool, single_block: bool, stops: Callable[[Item], bool] | None, first: float = -inf
     ) -> float:
@@ -474,7 +487,7 @@ class Preprocessing:
 
     def _lag(self) -> float:
         """Seconds by which the axes of the thread in front are behind its spindle, up to speed."""
-        if self.is_last_piece:
+        if self.ends_with_piece(one_block=self.one_block):
             self.end_in_rest()
             self.revised = True
         return self._buffer.lag
@@ -522,7 +535,7 @@ class Preprocessing:
         records: array[float], width: int,
     ) -> Iterator[tuple[int, float, Limits]]:  # fmt: skip
         """Of each piece the largest squared speed at its start, by what the operator has set, and its limits."""
-        at, closed, end = 0, False, len(records)
+        at, closed, end, asked = 0, False, len(records), self.queue.asked
         for item in self.items:
             closed = closed or (stops is not None and stops(item))
             if isinstance(item, Block):
@@ -530,15 +543,13 @@ class Preprocessing:
             elif isinstance(item, BlockEnd):
                 closed = closed or single_block
             elif isinstance(item, Move):
-                row, done = records[at + PieceRecord.ROW], item.done
+                row = records[at + PieceRecord.ROW]
                 while at < end and records[at + PieceRecord.ROW] == row:
-                    share = records[at + PieceRecord.LENGTH] / item.total
                     laid2 = records[at + PieceRecord.CAP2]
-                    own = rates.cap2(item, laid2, self.queue.asked(item, laid2, done + 0.5 * share))
+                    own = rates.cap2(item, laid2, asked(item, laid2, records[at + PieceRecord.ASKED]))
                     entry2 = 0.0 if closed else min(records[at + PieceRecord.ENTRY2], cap2, own)
                     yield at, entry2, item.limits
                     cap2, closed = own * risen(records, at), False
-                    done += share
                     at += width
 
     @property
@@ -565,9 +576,8 @@ class Preprocessing:
         """Largest squared speed on the piece in front."""
         move = self.items[0]
         assert isinstance(move, Move)
-        length, laid2 = self._buffer.front(PieceRecord.LENGTH), self._buffer.front(PieceRecord.CAP2)
-        middle = move.done + 0.5 * length / move.total
-        return rates.cap2(move, laid2, self.queue.asked(move, laid2, middle))
+        laid2, asked = self._buffer.front(PieceRecord.CAP2), self._buffer.front(PieceRecord.ASKED)
+        return rates.cap2(move, laid2, self.queue.asked(move, laid2, asked))
 
     def begin_elsewhere(self, move: Move | Piece, start: Sequence[float]) -> None:
         """The rest of a row goes to its end from another start; the axes rest at both."""
@@ -579,11 +589,6 @@ class Preprocessing:
         records, moves = line_from(move, start, fields, self._rows.real.limits(None, use))
         self._buffer.put_in_front(records)
         self.items.extendleft(moves)
-
-    @property
-    def is_last_piece(self) -> bool:
-        """Whether a row to come could still change the piece in front, and nobody knows when one will come."""
-        return not self._rests() and self._buffer.may_change
 
     @property
     def axes(self) -> int:

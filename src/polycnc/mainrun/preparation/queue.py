@@ -94,17 +94,17 @@ class Queue:
             move.way, move.row, move.kind, move.context, move.program, move.line, move.rapid, move.fixed,
             move.per_revolution, move.left if is_last else 0.0, move.by_axis, move.overridden, move.held,
             move.faster, move.largest_override, move.limits, record[PieceRecord.LENGTH], move.done, share,
-            record[PieceRecord.CAP2], self.asked(move, record[PieceRecord.CAP2], move.done + 0.5 * share),
+            record[PieceRecord.CAP2], self.asked(move, record[PieceRecord.CAP2], record[PieceRecord.ASKED]),
             curve=self._curve(move, record), rise=risen(record, 0),
         )  # fmt: skip
         move.done += share
         return piece
 
-    def asked(self, move: Move, cap2: float, share: float) -> float:
-        """Speed that the program asks for at a share of a move that is laid out, on a piece with that cap."""
+    def asked(self, move: Move, cap2: float, asked: float) -> float:
+        """Speed that the program asks for on a piece of a move, by CAP2 and ASKED of its record."""
         if move.grows and self.layout.free <= 1.0 and move.prepared is not None:
             return sqrt(cap2) / move.prepared.factor(self.layout)
-        return move.asked(share)
+        return asked or inf
 
     def _curve(self, move: Move, record: array[Any]) -> Cubic | None:
         """The curve of a piece; None if it is a part of the way of its row.

@@ -62,6 +62,8 @@ def line_from(
     lay(rows, 0, array("d"), int(move.row), own, limits, records, state)
     settle(records, n, limits, state)
     del records[state.run.pieces * width :]
+    for at in range(0, len(records), width):
+        records[at + PieceRecord.ASKED] = rows.feed[0]
     if not records:
         return records, []
     move_from_here = Move(

@@ -10,9 +10,7 @@ from polycnc.mainrun.motion.geometry import row_arc, row_line, turn_arc
 from polycnc.mainrun.preparation.items import Move
 from polycnc.mainrun.preparation.layout import Before, PreparedRow
 from polycnc.mainrun.preparation.run_blocks import largest_override
-from polycnc.motion.kernels.arcs import asked_on_arc, facing_radius
 from polycnc.motion.kernels.columns import (
-    FROM_CORNER,
     SHARES,
     ContextRecord,
     Form,
@@ -20,7 +18,7 @@ from polycnc.motion.kernels.columns import (
     Rows,
     piece_width,
 )
-from polycnc.motion.kernels.feeds import faster, follows_radius, growth_of, is_rapid, straight_speed
+from polycnc.motion.kernels.feeds import faster, growth_of, is_rapid
 from polycnc.motion.third_order.laying.rows import goes_by_law
 from polycnc.motion.time_constants import Use, use_of
 from polycnc.toolpath import Context, Kind
@@ -207,54 +205,21 @@ class RowLayer:
                 faster(chunk.curves, buffer.state),
                 largest_override(chunk, row),
                 limits,
-                self._asks(curves, record, found, prepared.factor(self._queue.layout), is_arc=is_arc),
+                self._asks(found),
                 sum(buffer.field(at, PieceRecord.LENGTH) for at in found),
                 prepared,
                 grows=growth_of(chunk.curves, buffer.state) != 0.0,
             )
         )
 
-    def _asks(
-        self, curves: array[float], record: int, found: Sequence[int], factor: float, *, is_arc: bool
-    ) -> tuple[tuple[float, float], ...]:
-        """Speeds that the program asks for in the row laid last, by shares of its way.
-
-        `found` are its pieces, `factor` that of overrides on its feed.
-        """
-        state, contexts = self._buffer.state, self._buffer.contexts
-        follows = self.facing >= 0 and follows_radius(contexts, record)
-        lengths = self._parts(found) if follows else [1.0]
-        total, done, asks = sum(lengths), 0.0, []
-        for length in lengths:
-            share = length / total
-            radius = self._radius(record, done + 0.5 * share, is_arc=is_arc)
-            told = (state, state.run.length, radius)
-            speed = (
-                asked_on_arc(curves, contexts, record, self._buffer.limits, *told)
-                if is_arc
-                else straight_speed(curves, contexts, record, *told, state.run.metric)
-            )
-            done += share
-            asks.append((done, speed / factor if speed > 0.0 else inf))
+    def _asks(self, found: Sequence[int]) -> tuple[tuple[float, float], ...]:
+        """Speeds that the program asks for in the row laid last, by shares of its way; `found` are its pieces."""
+        field, done = self._buffer.field, 0.0
+        total, asks = sum(field(at, PieceRecord.LENGTH) for at in found), list[tuple[float, float]]()
+        for at in found:
+            done += field(at, PieceRecord.LENGTH) / total
+            speed = field(at, PieceRecord.ASKED) or inf
+            if asks and asks[-1][1] == speed:
+                asks.pop()
+            asks.append((done, speed))
         return tuple(asks)
-
-    def _parts(self, found: Sequence[int]) -> list[float]:
-        """Lengths of the parts that a row was laid in, before a corner cut what is bent for it off the first one."""
-        field, lengths = self._buffer.field, list[float]()
-        for k, at in enumerate(found):
-            first = k == 1 and field(found[0], PieceRecord.ZONE) == FROM_CORNER
-            if first and field(found[0], PieceRecord.CAP2) == field(at, PieceRecord.CAP2):
-                lengths[0] += field(at, PieceRecord.LENGTH)
-            else:
-                lengths.append(field(at, PieceRecord.LENGTH))
-        return lengths
-
-    def _radius(self, record: int, middle: float, *, is_arc: bool) -> float:
-        """Turning radius at a share of the row laid last, as the planner takes it."""
-        state, facing = self._buffer.state, self.facing
-        if facing < 0:
-            return 0.0
-        follows = follows_radius(self._buffer.contexts, record)
-        if is_arc:
-            return facing_radius(middle * state.arc.sweep if follows else 0.0, self._buffer.limits, state)
-        return state.row.facing - (state.delta[facing] * (1.0 - middle) if follows else 0.0)

@@ -171,9 +171,13 @@ def asked_on_arc(
     limits: Limits,
     state: State,
     length: float,
-    radius_mm: float,
+    share: float,
 ) -> float:
-    """Path speed that the program asks for on an arc of a length: F may be the speed along the arc alone."""
+    """Path speed that the program asks for at a share of the arc at hand, of a length.
+
+    It may follow the turning radius there. F may be the speed along the arc alone.
+    """
+    radius_mm = facing_radius(share * state.arc.sweep, limits, state)
     if state.row.kind == THREAD:
         return asked_speed(curves, contexts, record, state, length, radius_mm)
     counted = state.arc.radius if limits.path.arc_by_radius != 0.0 else length
@@ -207,12 +211,11 @@ def lay_arc(
     end_way = arc_point(sweep, n, limits, weight, state)
     way = arc_point(0.0, n, limits, weight, state)
     length = 0.5 * (way + end_way) * sweep
-    radius, highest = facing_radius(0.0, limits, state), limits.path.path_feed
-    highest = min(highest, state.row.top, block_top(length, limits, state))
+    follows, middle = follows_radius(contexts, record, state), 0.5 / parts
+    highest = min(limits.path.path_feed, state.row.top, block_top(length, limits, state))
     highest = min(highest, arc_top(contexts, record, way, end_way, limits, state))
-    speed = min(
-        bounded(asked_on_arc(curves, contexts, record, limits, state, length, radius), state), highest
-    )
+    asked = asked_on_arc(curves, contexts, record, limits, state, length, middle)
+    speed = min(bounded(asked, state), highest)
     entry2, pull = point_cap2(n, limits, state, margin), inf
     if gentle:
         bend = curvature(n, limits, weight, state)
@@ -231,14 +234,15 @@ def lay_arc(
         is_first, first, last = last == 0.0, last, edge_of_arc(last, goal * step, state)
         part = goal if last == goal * step else part
         own = share_of_arc(0.5 * (first + last) / sweep, state)
-        if follows_radius(contexts, record):
-            radius = facing_radius(0.5 * (first + last), limits, state)
-            asked = asked_on_arc(curves, contexts, record, limits, state, length, radius)
+        if follows:
+            middle = 0.5 * (first + last) / sweep
+            asked = asked_on_arc(curves, contexts, record, limits, state, length, middle)
             speed = min(bound(asked, state), highest)
         at = next_piece(pieces, state, Form.BENT if gentle else Form.CURVED, 0.0, n)
         if is_first:
             open_joint(pieces, at, state, entry2)
         pieces[at + PieceRecord.MARGIN] = margin / state.arc.ease
+        pieces[at + PieceRecord.ASKED] = asked / state.run.override
         place_arc(pieces, at, first, last, n, limits, state)
         bend = curvature(n, limits, weight, state)
         store_point(pieces, at + PieceRecord.VECTORS, n, state, margin)
@@ -323,7 +327,7 @@ def is_even(contexts: Floats, record: int, n: int, limits: Limits, state: State,
         along = i in (limits.geometry[0], limits.geometry[1], limits.geometry[2])
         if limits.top_feed[i] < speed if along else state.delta[i] != 0.0:
             return False
-    return not follows_radius(contexts, record)
+    return not follows_radius(contexts, record, state)
 
 
 def turns_faster(state: State) -> float:
@@ -429,12 +433,14 @@ def hold_others(
 
 
 def facing_radius(angle: float, limits: Limits, state: State) -> float:
-    """Turning radius (work X) at an angle of the arc."""
+    """Turning radius (work X) at an angle of the arc, helix or spiral."""
     facing = limits.geometry[0]
     if facing < 0:
         return 0.0
-    start = state.row.facing - state.delta[facing]
-    return start + state.arc.radius * ((cos(angle) - 1.0) * state.basis[0] + sin(angle) * state.basis[3])
+    start, share = state.row.facing - state.delta[facing], angle / state.arc.sweep
+    radius = state.arc.radius + share * state.arc.growth
+    outward = (radius * cos(angle) - state.arc.radius) * state.basis[0]
+    return start + outward + radius * sin(angle) * state.basis[3] + share * state.arc.rise * state.basis[6]
 
 
 def store_point(pieces: Floats, at: int, n: int, state: State, margin: float) -> None:

@@ -192,7 +192,7 @@ class PieceRecord(Places):
     ZONE says that the piece is bent for the corner behind it (TO_CORNER) or before it (FROM_CORNER, `rounding.py`),
     ALONE (1) that it is of a line from rest to rest with averages of its own. RISE is what CAP2, then that at the start
     of a line, rises by in a mm (`leads.py`); PEAK2 is the highest x then, and RATE the acceleration to the cap and from
-    it.
+    it. ASKED is the path speed that the program asks for on the piece, without overrides; 0 where it asks for none.
 
     Of a JERKED piece, which `third_order/laws/records.py` writes, PULL is the acceleration along the path at its start
     and JERK what that changes by in a second, to either side; q' and q'' are what they are, and RATE is nothing.
@@ -224,6 +224,7 @@ class PieceRecord(Places):
     ALONE = place()
     JERK = place()
     RISE = place()
+    ASKED = place()
     VECTORS = place(0)
 
 

@@ -249,12 +249,21 @@ def block_top(length: float, limits: Limits, state: State) -> float:
     return inf if limits.path.block_s == 0.0 or is_bound else length / limits.path.block_s
 
 
-def follows_radius(contexts: Floats, record: int) -> bool:
-    """Whether the feed changes with the turning radius: per revolution, under constant surface speed."""
-    return (
-        contexts[record + ContextRecord.SURFACE_MM_S] != 0.0
-        and contexts[record + ContextRecord.PER_REVOLUTION] != 0.0
-    )
+def follows_radius(contexts: Floats, record: int, state: State) -> bool:
+    """Whether the speed of the row at hand changes with the turning radius.
+
+    Under constant surface speed that of a feed per revolution does, and that of a thread, whatever F counts.
+    """
+    per_revolution = contexts[record + ContextRecord.PER_REVOLUTION] != 0.0 or state.row.kind == THREAD
+    return contexts[record + ContextRecord.SURFACE_MM_S] != 0.0 and per_revolution
+
+
+def radius_on_line(contexts: Floats, record: int, limits: Limits, state: State, share: float) -> float:
+    """Turning radius (work X) at a share of the straight row at hand; that at its end where no speed follows it."""
+    facing = limits.geometry[0]
+    if facing < 0 or not follows_radius(contexts, record, state):
+        return state.row.facing
+    return state.row.facing - state.delta[facing] * (1.0 - share)
 
 
 def has_room(pieces: Floats, contexts: Floats, record: int, state: State, parts: int, n: int) -> bool:
@@ -288,6 +297,7 @@ def next_piece(pieces: Floats, state: State, form: int, cap2: float, n: int) -> 
     ) = inf, inf, 0.0, 1.0
     pieces[at + PieceRecord.PATH_PULL], pieces[at + PieceRecord.ZONE] = inf, 0.0
     pieces[at + PieceRecord.ALONE], pieces[at + PieceRecord.RISE] = 0.0, 0.0
+    pieces[at + PieceRecord.ASKED] = 0.0
     pieces[at + PieceRecord.RAMP], pieces[at + PieceRecord.BLEND], pieces[at + PieceRecord.EARLY] = (
         state.joint.ramp,
         state.joint.blend,

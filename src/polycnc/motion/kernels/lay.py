@@ -46,7 +46,6 @@ from polycnc.motion.kernels.feeds import (
     bounded,
     counted_length,
     drive_factor,
-    follows_radius,
     has_room,
     is_rapid,
     lagging_pull,
@@ -55,6 +54,7 @@ from polycnc.motion.kernels.feeds import (
     norm,
     open_joint,
     place,
+    radius_on_line,
     straight_speed,
 )
 from polycnc.motion.kernels.hold import hold
@@ -247,7 +247,7 @@ def lay_move(
         return False
     if state.run.pieces > first:
         if kind == THREAD:
-            first += follow_leads(curves, contexts, record, exit2, first, limits.geometry[0], pieces, state)
+            first += follow_leads(curves, contexts, record, exit2, first, limits, pieces, state)
         overlap(contexts, record, pieces, first, n, limits, state)
     stands = stands or contexts[record + ContextRecord.EXACT_STOP] != 0.0
     if stands and state.run.pieces > first:
@@ -358,11 +358,10 @@ def lay_straight(
     length, weight = counted_length(contexts, record, n, limits, state)
     if length == 0.0:
         return True
-    parts, start_x = parts_of_line(contexts, record, limits, state)
-    end_x, shared = state.row.facing, state.row.shares > 1.0
+    parts, shared = parts_of_line(contexts, record, limits, state), state.row.shares > 1.0
     if not has_room(pieces, contexts, record, state, parts, n):
         return False
-    top, pull = line_limits(curves, contexts, record, n, limits, state, length, start_x, weight)
+    top, pull = line_limits(curves, contexts, record, n, limits, state, length, weight)
     if not goes_on_smoothly(n, limits, state, weight):
         end_chord(pieces, n, limits, state)
     entry2, first, last, whole_pull, before = 0.0, 0.0, 0.0, pull / state.row.ease, pull
@@ -371,7 +370,7 @@ def lay_straight(
         own = state.share_top[part] if shared else inf
         if shared and part > 0:
             pull = whole_pull * state.share_ease[part]
-        radius = start_x + (end_x - start_x) * 0.5 * (first + last)
+        radius = radius_on_line(contexts, record, limits, state, 0.5 * (first + last))
         asked = straight_speed(curves, contexts, record, state, length, radius, weight)
         if part == 0:
             speed = min(top, own, bounded(asked, state))
@@ -411,6 +410,7 @@ def lay_straight(
         )
         pieces[at + PieceRecord.PULL] = pull
         pieces[at + PieceRecord.ENTRY2] = entry2
+        pieces[at + PieceRecord.ASKED] = asked / state.run.override
         if state.row.kind == SPLINE:
             lay_chord(contexts, record, pieces, at, n, limits, state, length, weight)
     for i in range(n):
@@ -426,16 +426,13 @@ def lay_straight(
     return True
 
 
-def parts_of_line(contexts: Floats, record: int, limits: Limits, state: State) -> tuple[int, float]:
-    """Number of pieces that the line at hand is laid in, and the turning radius at its start."""
-    end_x, start_x, facing = state.row.facing, state.row.facing, limits.geometry[0]
+def parts_of_line(contexts: Floats, record: int, limits: Limits, state: State) -> int:
+    """Number of pieces that the line at hand is laid in."""
     if state.row.shares > 1.0:
-        return state.row.shares, start_x
-    if facing >= 0 and follows_radius(contexts, record):
-        start_x -= state.delta[facing]
-        if abs(end_x - start_x) > 0.02 * max(abs(end_x), abs(start_x)):
-            return FACING_PIECES, start_x
-    return 1, start_x
+        return state.row.shares
+    end_x = state.row.facing
+    start_x = radius_on_line(contexts, record, limits, state, 0.0)
+    return FACING_PIECES if abs(end_x - start_x) > 0.02 * max(abs(end_x), abs(start_x)) else 1
 
 
 def line_limits(
@@ -446,7 +443,6 @@ def line_limits(
     limits: Limits,
     state: State,
     length: float,
-    radius: float,
     weight: float,
 ) -> tuple[float, float]:
     """Speed and acceleration along the row at hand that its axes allow; sets `unit` to its direction."""
@@ -461,6 +457,7 @@ def line_limits(
         alone = is_rapid(state) and limits.path.rapid_stops != 0.0
         pull = line_pull(contexts, record, n, limits, state, alone or state.row.kind == TAP)
     elif contexts[record + ContextRecord.DRIVE_SPEED] < 1.0:
+        radius = radius_on_line(contexts, record, limits, state, 0.0)
         asked = bound(straight_speed(curves, contexts, record, state, length, radius, weight), state)
         pull *= drive_factor(contexts, record, n, limits, state, unit, 0, min(top, asked))
     lead = lead_of(curves, state)

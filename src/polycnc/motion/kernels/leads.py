@@ -25,6 +25,7 @@ from polycnc.motion.kernels.columns import (
     WAY_OUT,
     ContextRecord,
     Form,
+    Limits,
     PieceRecord,
     State,
     piece_width,
@@ -32,10 +33,10 @@ from polycnc.motion.kernels.columns import (
 from polycnc.motion.kernels.feeds import (
     axes_of,
     bound,
-    follows_radius,
     growth_of,
     is_straight_thread,
     lead_of,
+    radius_on_line,
     turns_s,
 )
 from polycnc.motion.kernels.hold import cut, end_cap2
@@ -51,7 +52,7 @@ def follow_leads(
     record: int,
     before2: float,
     first: int,
-    facing: int,
+    limits: Limits,
     pieces: Floats,
     state: State,
 ) -> int:
@@ -63,7 +64,7 @@ def follow_leads(
         record: Where the context of the row begins in it.
         before2: x with which the row before may be left.
         first: Its first piece.
-        facing: The column of X, -1 for none.
+        limits: The machine.
         pieces: Records of pieces.
         state: That of the row.
 
@@ -76,7 +77,7 @@ def follow_leads(
         mean2 = averaged_s2(pieces[at + PieceRecord.RAMP], pieces[at + PieceRecord.BLEND])
     start2 = end2 = pieces[at + PieceRecord.CAP2]
     if growth_of(curves, state) != 0.0:
-        start2, end2 = rise_with_lead(curves, contexts, record, first, facing, mean2, pieces, state)
+        start2, end2 = rise_with_lead(curves, contexts, record, first, limits, mean2, pieces, state)
     more, begins = 0, pieces[at + PieceRecord.PAUSE] > 0.0 or pieces[at + PieceRecord.ENTRY2] == 0.0
     if not begins and first > 0:
         run_on(pieces, first - 1, n)
@@ -148,7 +149,7 @@ def rise_with_lead(
     contexts: Floats,
     record: int,
     first: int,
-    facing: int,
+    limits: Limits,
     mean2: float,
     pieces: Floats,
     state: State,
@@ -165,10 +166,9 @@ def rise_with_lead(
     lead, growth, ratio = lead_of(curves, state), growth_of(curves, state), length / longest
     start2, end2, way, p = 0.0, 0.0, 0.0, first
     while p < state.run.pieces:
-        at, radius = p * width, state.row.facing
+        at = p * width
         own = pieces[at + PieceRecord.LENGTH]
-        if facing >= 0 and follows_radius(contexts, record):
-            radius -= state.delta[facing] * (1.0 - (way + 0.5 * own) / length)
+        radius = radius_on_line(contexts, record, limits, state, (way + 0.5 * own) / length)
         speed = bound(turns_s(contexts, record, state, radius) * ratio, state)
         if speed == inf:
             return pieces[first * width + PieceRecord.CAP2], pieces[at + PieceRecord.CAP2]

@@ -33,6 +33,7 @@ from polycnc.motion.kernels.feeds import (
     next_piece,
     open_joint,
     place,
+    radius_on_line,
     straight_speed,
 )
 from polycnc.motion.kernels.rounding import BENDS
@@ -76,7 +77,8 @@ def lay_led(
         room[Room.BLOCKS + Block.ORIGIN * n + i] = (
             state.position[i] - contexts[record + ContextRecord.OFFSETS + i]
         )
-    asked = straight_speed(curves, contexts, record, state, length, state.row.facing, weight)
+    radius = radius_on_line(contexts, record, limits, state, 0.5)
+    asked = straight_speed(curves, contexts, record, state, length, radius, weight)
     speed = min(bounded(asked, state), led_top(length, limits, state))
     faster = contexts[record + ContextRecord.RAPID_SHARE] if is_rapid(state) else 1.0
     entry2 = meet(contexts, record, n, limits, state, length, weight, speed * speed)
@@ -91,6 +93,7 @@ def lay_led(
         look(n, limits, room, unit, length * (part + 1) / parts)
         store(pieces, at + PieceRecord.VECTORS + n, n, room, margin)
         pieces[at + PieceRecord.MARGIN], pieces[at + PieceRecord.LENGTH] = margin, length / parts
+        pieces[at + PieceRecord.ASKED] = asked / state.run.override
         bound_led(pieces, at, n, limits, state, speed, faster)
         pieces[at + PieceRecord.ENTRY2] = min(entry2, point2, pieces[at + PieceRecord.CAP2])
         point2, entry2 = led_cap2(n, limits, room, margin), pieces[at + PieceRecord.CAP2]

@@ -31,6 +31,7 @@ from polycnc.motion.kernels.feeds import (
     follows_radius,
     is_rapid,
     lead_of,
+    radius_on_line,
     straight_speed,
 )
 from polycnc.motion.kernels.jerk import ARC_DEVIATION, MOST_TENTS, NO_TURN, ROW_ACROSS, row_deviation2
@@ -111,21 +112,23 @@ def note_row(
 ) -> bool:
     """Note the speeds that bound the row at hand, and those of its joint; whether it moves."""
     n, kind, weight = axes_of(state), state.row.kind, contexts[record + ContextRecord.ROTARY_WEIGHT]
-    follows, radius, length, end_way = follows_radius(contexts, record), state.row.facing, 0.0, 0.0
+    follows, radius, length, end_way = follows_radius(contexts, record, state), 0.0, 0.0, 0.0
     notes[at + Note.PATH], notes[at + Note.ARC], notes[at + Note.RAPID] = limits.path.path_feed, inf, 0.0
     notes[at + Note.PLANAR] = 0.0
     arc = (CW <= kind <= HELIX_CCW or kind == THREAD) and state.row.curve >= 0.0
     if arc and find_arc(curves, contexts, record, limits, state):
         end_way = arc_point(state.arc.sweep, n, limits, weight, state)
         way = arc_point(0.0, n, limits, weight, state)
-        length, radius = 0.5 * (way + end_way) * state.arc.sweep, facing_radius(0.0, limits, state)
-        asked = asked_on_arc(curves, contexts, record, limits, state, length, radius)
+        length, radius = (
+            0.5 * (way + end_way) * state.arc.sweep,
+            facing_radius(0.5 * state.arc.sweep, limits, state),
+        )
+        asked = asked_on_arc(curves, contexts, record, limits, state, length, 0.5)
         notes[at + Note.ARC] = arc_top(contexts, record, way, end_way, limits, state)
         notes[at + Note.PLANAR] = (state.arc.radius + 0.5 * state.arc.growth) * state.arc.sweep / length
     else:
         length, weight = counted_length(contexts, record, n, limits, state)
-        if follows:
-            radius -= 0.5 * state.delta[limits.geometry[0]] if limits.geometry[0] >= 0 else 0.0
+        radius = radius_on_line(contexts, record, limits, state, 0.5)
         asked = straight_speed(curves, contexts, record, state, length, radius, weight)
         for i in range(n):
             state.unit[i], state.bend[i] = state.delta[i] / length if length > 0.0 else 0.0, 0.0

@@ -14,7 +14,6 @@ from polycnc.motion.kernels.arcs import (
     arc_point,
     arc_top,
     asked_on_arc,
-    facing_radius,
     find_arc,
     turns_faster,
 )
@@ -44,6 +43,7 @@ from polycnc.motion.kernels.feeds import (
     is_rapid,
     left_swing,
     left_tolerance,
+    radius_on_line,
     straight_speed,
 )
 from polycnc.motion.kernels.lay import lay_row, line_top, parts_of_line, take_row
@@ -254,7 +254,7 @@ def add_line(
     weight: float,
 ) -> bool:
     """A line, or a chord of a spline; in parts where the spindle's speed follows the radius."""
-    parts, start_x = parts_of_line(contexts, record, limits, lead)
+    parts = parts_of_line(contexts, record, limits, lead)
     if laid.stretches + parts > len(path.form):
         laid.why = NO_STRETCH
         return False
@@ -267,7 +267,7 @@ def add_line(
         for i in range(n):
             path.leave[e * n + i] = path.arrive[e * n + i] = lead.unit[i]
             path.place[(e + 1) * n + i] = lead.position[i] + (part + 1) / parts * lead.delta[i]
-        radius = start_x + (lead.row.facing - start_x) * (part + 0.5) / parts
+        radius = radius_on_line(contexts, record, limits, lead, (part + 0.5) / parts)
         asked = straight_speed(curves, contexts, record, lead, length, radius, weight)
         if part == 0:
             if not meets(contexts, record, n, path, e):
@@ -304,10 +304,10 @@ def add_arc(
         return False
     end_way = arc_point(sweep, n, limits, weight, lead)
     way = arc_point(0.0, n, limits, weight, lead)
-    length, radius = 0.5 * (way + end_way) * sweep, facing_radius(0.0, limits, lead)
+    length = 0.5 * (way + end_way) * sweep
     top = min(limits.path.path_feed, lead.row.top, block_top(length, limits, lead))
     top = min(top, arc_top(contexts, record, way, end_way, limits, lead))
-    speed, follows = 0.0, follows_radius(contexts, record)
+    speed, follows = 0.0, follows_radius(contexts, record, lead)
     for part in range(parts):
         e, first, last = laid.stretches + part, part * sweep / parts, (part + 1) * sweep / parts
         for i in range(n):
@@ -333,11 +333,9 @@ def add_arc(
                 return False
             share_corner(lead, n, path, e)
             bound_corner(contexts, record, n, limits, lead, path, e, length)
-            asked = asked_on_arc(curves, contexts, record, limits, lead, length, radius)
-            speed = bounded(asked, lead)
-        elif follows:
-            radius = facing_radius(0.5 * (first + last), limits, lead)
-            speed = bound(asked_on_arc(curves, contexts, record, limits, lead, length, radius), lead)
+        if part == 0 or follows:
+            asked = asked_on_arc(curves, contexts, record, limits, lead, length, (part + 0.5) / parts)
+            speed = bounded(asked, lead) if part == 0 else bound(asked, lead)
         own = min(speed, top, axes_top(n, limits, path, e))
         path.cap2[e] = own * own
         way = next_way
