@@ -219,13 +219,7 @@ class Waits:
         """
         context = self.contexts[number]
         last = self.contexts[self._context] if self._context >= 0 else None
-        tool = (context.tool, context.tool_name)
-        if self._at_start and self._at_start in (tool[0], tool[1].upper()):
-            self._tool = tool  # contexts know number and name, the start knows one of them
-        self._at_start = 0
-        if tool != self._tool and (any(tool) or any(self._tool)):
-            self._change(row, number, self._tool[0], tool[0])
-        self._tool = tool
+        self._take_tool(row, number)
         spindle, self._has_followed = self.spindle(context), False
         if spindle is not None:
             if last is not None and last.surface_speed and self.spindle(last) is spindle:
@@ -242,6 +236,19 @@ class Waits:
                     since = self._rpm.get(spindle.number, 0.0) if follows else None
                     self._run_up(row, spindle, target, since)
             self._rpm[spindle.number] = target
+
+    def _take_tool(self, row: int, number: int) -> None:
+        """The tool of a context, which is changed if it is another one. No tool is no place of a turret: it stays."""
+        context = self.contexts[number]
+        tool = (context.tool, context.tool_name)
+        if self._at_start and self._at_start in (tool[0], tool[1].upper()):
+            self._tool = tool  # contexts know number and name, the start knows one of them
+        self._at_start = 0
+        if not any(tool) and self.machine.magazine.kind == "turret":
+            return
+        if tool != self._tool and (any(tool) or any(self._tool)):
+            self._change(row, number, self._tool[0], tool[0])
+        self._tool = tool
 
     def stands_for_speed(self, spindle: Spindle) -> bool:
         """Whether a block that asks for another speed of a spindle waits for it."""
@@ -323,11 +330,12 @@ class Waits:
         self._rpm[spindle.number], self._has_followed = target, False
 
     def _change(self, row: int, number: int, before: int, after: int) -> None:
-        """The tool is changed.
+        """The tool is changed, once its spindle stands.
 
         Without an arm the magazine first takes the old tool back to its place. With one it has turned to the new tool
         since its T; the old tool gets the place of the new one.
         """
+        self._stop_tool(row, number)
         for spindle, turning in self._turning.items():
             if self._rpm[spindle] == 0.0:  # it comes to rest
                 self.step(Awaits(row, turning, number))
@@ -347,6 +355,27 @@ class Waits:
                 self._pockets[before] = place or before
             self._pockets[after] = 0
         self.wait(row, "tool_change_s", number, seconds)
+
+    def stops_for_change(self, spindle: Spindle | None) -> bool:
+        """Whether a spindle comes to rest for a change of the tool: it turns the tool, which comes out of a magazine."""
+        kind = self.machine.magazine.kind
+        return kind == "magazine" and spindle is not None and spindle.carries == "tool"
+
+    def _stop_tool(self, row: int, number: int) -> None:
+        """A spindle that turns the tool comes to rest for its change, and behind it goes to its speed again."""
+        spindle = self.spindle(self.contexts[number])
+        if spindle is None or not self.stops_for_change(spindle):
+            return
+        rpm = abs(self._rpm.get(spindle.number, 0.0))
+        if rpm == 0.0 or spindle.acceleration_rpm_s <= 0.0:
+            return
+        if self.stands_for_speed(spindle):
+            self._turn(row, spindle, 0.0, rpm, is_even=True)
+            self.wait(row, "tool_change_s", number, rpm / spindle.acceleration_rpm_s)
+        else:
+            self._run_up(row, spindle, 0.0, None)
+            self.step(Awaits(row, self._turning[spindle.number], number, share="tool_change_s"))
+        self._rpm[spindle.number] = 0.0
 
     def _select(self, row: int, tool: str | float) -> None:
         """T: a magazine with an arm turns to the tool beside what comes."""
