@@ -97,8 +97,6 @@ class MCode:
         takes: Addresses that belong to it.
         silent: The code is not sent to the machine (M98, M99).
         open: The words of its block that nothing else takes go to the machine with it.
-        acts_first: The handler acts before the code goes to the machine: what it asks of the spindle is waited for in
-            its own block.
     """
 
     code: int
@@ -107,7 +105,6 @@ class MCode:
     takes: str = ""
     silent: bool = False
     open: bool = False
-    acts_first: bool = False
 
 
 #: What machining centres of every family choose at power-on, by modal group; each family adds and replaces.

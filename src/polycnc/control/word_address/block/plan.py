@@ -475,8 +475,6 @@ def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
     plain = Auxiliary(code)
 
     def act(channel: Channel, values: list[float]) -> None:
-        if handler is not None and row.acts_first:
-            handler(channel, values)
         sent = (*takes, *plan.rest) if row.open else takes
         if spindle is None and not sent:
             channel.event(plain)
@@ -484,7 +482,7 @@ def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
             number = None if spindle is None else int(values[spindle])
             channel.event(Auxiliary(code, number, sent_words(plan, sent, values) if sent else None))
         SentCodes.of(channel).m = code
-        if handler is not None and not row.acts_first:
+        if handler is not None:
             handler(channel, values)
 
     return act

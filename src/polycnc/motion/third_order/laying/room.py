@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 #: Stretches, and changes of the slot, that there is room for at first.
 ROOM, CHANGES = 1024, 64
-#: The least time in which an axis builds its acceleration up along a run, s. Where the jerk allows less (an acceleration
-#: by a time constant without a second one builds up within 1 ms) x bends at once from node to node, and few steps of
-#: Newton's method do not find it; at rest to rest this costs no more than that time.
+#: The least time in which an axis builds its acceleration up along a run, s. Where the jerk allows less (by a time
+#: constant alone the acceleration builds up within 1 ms) x bends at once from node to node, which few steps of Newton's
+#: method do not find; from rest to rest this costs no more than that time.
 BUILD_S = 0.006
 
 
