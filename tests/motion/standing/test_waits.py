@@ -13,6 +13,7 @@ from polycnc.motion.standing.waits import rpm_at
 from polycnc.toolpath import Context
 from polycnc.toolpath.events import Auxiliary, Message, ToolSelection
 from polycnc.toolpath.modes import CornerMode, StopWindow
+from polycnc.toolpath.motion_settings import SpindleWaitFor
 from tests.motion.paths import LATHE, MILL, Build
 
 CHANGE_S = MILL.magazine.change_time_s
@@ -217,9 +218,8 @@ def test_a_magazine_takes_the_tool_out_of_the_spindle_when_none_is_named() -> No
 
 
 @pytest.mark.parametrize(("waits", "turns_up"), [("block", True), ("cut", True), ("never", False)])
-def test_a_tool_is_changed_in_a_spindle_that_stands(waits: str, turns_up: bool) -> None:
-    spindles = {1: replace(MILL.spindle[1], speed_wait=waits)}
-    machine = replace(MILL, spindles=tuple(spindles.values()))
+def test_a_tool_is_changed_in_a_spindle_that_stands(waits: SpindleWaitFor, turns_up: bool) -> None:
+    machine = replace(MILL, spindles=(replace(MILL.spindle[1], speed_wait=waits),))
     rows = Build().set(spindle_rpm=6000.0, spindle_direction=1).event(Auxiliary(3)).dwell(5.0)
     rows.set(tool=2).event(Auxiliary(6)).event(Auxiliary(3)).feed(10.0, 0.0, 0.0)
     times = rows.plan(machine).times
@@ -236,7 +236,7 @@ def test_a_spindle_that_stands_since_a_change_goes_to_the_speed_that_it_is_told_
 
 
 @pytest.mark.parametrize("waits", ["block", "cut", "never"])
-def test_an_orientation_waits_until_the_spindle_stands(waits: str) -> None:
+def test_an_orientation_waits_until_the_spindle_stands(waits: SpindleWaitFor) -> None:
     machine = replace(MILL, spindles=(replace(MILL.spindle[1], speed_wait=waits),))
     rows = Build().set(spindle_rpm=6000.0, spindle_direction=1).dwell(5.0).event(Auxiliary(19))
     rows.set(spindle_direction=0).dwell(1.0)
