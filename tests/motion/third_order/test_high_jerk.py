@@ -1,4 +1,4 @@
-"""Limits of jerk that hardly bind: a run takes no longer than with less jerk, and little longer than without a limit."""
+"""Limits of jerk that hardly bind: a run takes no longer than with less jerk, and little longer than without any."""
 
 from __future__ import annotations
 
