@@ -160,6 +160,10 @@ class Planner:
         spindle = self._waits.spindle(context)
         return spindle is not None and not self._waits.stands_for_speed(spindle)
 
+    def stops_for_change(self, context: Context) -> bool:
+        """Whether the spindle of a context comes to rest for a change of the tool."""
+        return self._waits.stops_for_change(self._waits.spindle(context))
+
     @property
     def top_speeds(self) -> tuple[Sequence[float], Sequence[float]]:
         """Highest velocity of every column in cuts, and in rapids."""

@@ -6,13 +6,14 @@ from dataclasses import replace
 
 import pytest
 
-from polycnc.machine import MFunction
+from polycnc.machine import MFunction, load_machine
 from polycnc.machine.text import Text
 from polycnc.motion import Settings
 from polycnc.motion.standing.waits import rpm_at
 from polycnc.toolpath import Context
 from polycnc.toolpath.events import Auxiliary, Message, ToolSelection
 from polycnc.toolpath.modes import CornerMode, StopWindow
+from polycnc.toolpath.motion_settings import SpindleWaitFor
 from tests.motion.paths import LATHE, MILL, Build
 
 CHANGE_S = MILL.magazine.change_time_s
@@ -202,3 +203,49 @@ def test_a_turret_turns_the_shorter_way_round_to_the_place_of_its_tool() -> None
     rows = Build(axes=("X", "Z"), context=Context(tool=2)).feed(1.0, 0.0)
     rows.set(tool=11).feed(2.0, 0.0)
     assert rows.plan(machine, tool=1).times.tool_change_s == pytest.approx(2 * 1.0 + (1 + 3) * 0.2)
+
+
+def test_a_turret_stays_where_it_is_when_no_tool_is_named() -> None:
+    magazine = replace(LATHE.magazine, kind="turret", places=12, change_time_s=1.0, place_time_s=0.2)
+    rows = Build().set(tool=5).dwell(1.0).set(tool=0).dwell(1.0).set(tool=5).dwell(1.0).set(tool=7).dwell(1.0)
+    plan = rows.plan(replace(LATHE, magazine=magazine))
+    assert list(plan.row_s) == pytest.approx([2.0, 1.0, 1.0, 2.4])
+
+
+def test_a_magazine_takes_the_tool_out_of_the_spindle_when_none_is_named() -> None:
+    rows = Build().set(tool=5).dwell(1.0).set(tool=0).dwell(1.0)
+    assert rows.plan().times.tool_change_s == 2.0 * CHANGE_S
+
+
+@pytest.mark.parametrize(("waits", "turns_up"), [("block", True), ("cut", True), ("never", False)])
+def test_a_tool_is_changed_in_a_spindle_that_stands(waits: SpindleWaitFor, turns_up: bool) -> None:
+    machine = replace(MILL, spindles=(replace(MILL.spindle[1], speed_wait=waits),))
+    rows = Build().set(spindle_rpm=6000.0, spindle_direction=1).event(Auxiliary(3)).dwell(5.0)
+    rows.set(tool=2).event(Auxiliary(6)).event(Auxiliary(3)).feed(10.0, 0.0, 0.0)
+    times = rows.plan(machine).times
+    ramp = 6000.0 / RAMP
+    assert times.tool_change_s == pytest.approx(CHANGE_S + ramp)
+    up = 2.0 * ramp if waits == "block" else ramp  # the first one beside the dwell
+    assert times.spindle_s == pytest.approx(up if turns_up else 0.0)
+
+
+def test_a_spindle_that_stands_since_a_change_goes_to_the_speed_that_it_is_told_next() -> None:
+    rows = Build().set(spindle_rpm=9000.0, spindle_direction=1).dwell(1.0).set(tool=2).event(Auxiliary(6))
+    rows.event(Auxiliary(8)).set(spindle_rpm=3000.0).event(Auxiliary(3)).feed(10.0, 0.0, 0.0)
+    assert rows.plan().times.spindle_s == pytest.approx((9000.0 + 3000.0) / RAMP)
+
+
+@pytest.mark.parametrize("waits", ["block", "cut", "never"])
+def test_an_orientation_waits_until_the_spindle_stands(waits: SpindleWaitFor) -> None:
+    machine = replace(MILL, spindles=(replace(MILL.spindle[1], speed_wait=waits),))
+    rows = Build().set(spindle_rpm=6000.0, spindle_direction=1).dwell(5.0).event(Auxiliary(19))
+    rows.set(spindle_direction=0).dwell(1.0)
+    plan = rows.plan(machine)
+    assert plan.row_s[1] == pytest.approx(6000.0 / RAMP + machine.spindle[1].orient_s)
+    assert plan.row_s[2] == pytest.approx(1.0)
+
+
+def test_an_orientation_of_another_spindle_stops_that_one_alone() -> None:
+    rows = Build().set(spindle_rpm=6000.0, spindle_direction=1).dwell(5.0).event(Auxiliary(19, 2)).dwell(1.0)
+    machine = load_machine("mill3-two-spindles")
+    assert rows.plan(machine).row_s[1] == pytest.approx(machine.spindle[2].orient_s)

@@ -155,6 +155,7 @@ M_CODES = m_table(
     MCode(4, handler=functions.spindle_counter_clockwise),
     MCode(5, handler=functions.spindle_stop),
     MCode(6, after=True, handler=functions.change_tool),
+    MCode(19, after=True, handler=functions.spindle_stop),
     MCode(30, after=True, handler=calls.end_program),
     MCode(96, handler=interrupts.interrupts_on, takes="P I Q R L", silent=True),
     MCode(97, handler=interrupts.interrupts_off, silent=True),

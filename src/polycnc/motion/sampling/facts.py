@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
+from polycnc.motion.standing.waits import ORIENT
 from polycnc.toolpath import Context, Kind
+from polycnc.toolpath.events import Auxiliary
 from polycnc.toolpath.kinds import CURVE_WIDTH
 
 if TYPE_CHECKING:
@@ -78,6 +80,12 @@ class Facts:
             speeds[first:end] = [
                 context.spindle_direction * self._planner.rpm(context, abs(radius)) for radius in radii
             ]
+        for row in np.flatnonzero(chunk.numpy().kind == Kind.EVENT).tolist():
+            event = chunk.events[chunk.curve[row]]
+            if (
+                isinstance(event, Auxiliary) and event.code == ORIENT
+            ):  # where the context is still the one before
+                speeds[row] = 0.0
         return speeds
 
     def of(self, row: int) -> RowFacts | None:

@@ -219,6 +219,8 @@ class Sampler:
         """Rest while a row waits; the spindle goes evenly to a speed that is waited for, or runs up beside it."""
         if share == "spindle_s":
             self._spindle.go_evenly(self._time, self._row.rpm, seconds)
+        elif share == "tool_change_s" and self._planner.stops_for_change(self._row.context):
+            self._spindle.go_to(self._time, 0.0, self._planner.spindle_pull(self._row.context))
         elif share != "tool_change_s" and self._planner.runs_up_beside(self._row.context):
             self._spindle.go_to(self._time, self._row.rpm, self._planner.spindle_pull(self._row.context))
         for times in _batches(self._times(seconds)):

@@ -110,12 +110,16 @@ class Begins(NamedTuple):
 
 
 class Awaits(NamedTuple):
-    """A row waits for some work; `rests`: the axes rest before it for that reason."""
+    """A row waits for some work; `rests`: the axes rest before it for that reason.
+
+    `share` is the field of `Times` that the wait counts for; empty for that of the work.
+    """
 
     row: int
     work: Work
     context: int
     rests: bool = False
+    share: str = ""
 
 
 #: What begins, changes or is waited for at a row.
@@ -184,7 +188,7 @@ class Beside:
                 if waits > 0.0:
                     self._stand(step, "spindle_s", waits, wait)
             elif step.work.left_s > 0.0:
-                self._stand(step, step.work.share, step.work.left_s, wait)
+                self._stand(step, step.share or step.work.share, step.work.left_s, wait)
         del self._coming[:done]
         self._let_pass(row, seconds)
 

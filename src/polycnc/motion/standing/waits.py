@@ -39,6 +39,8 @@ if TYPE_CHECKING:
 STANDING = (Auxiliary, BuilderCode, SpindleSpeed, SpindleWait, ToolSelection, HFunction, Stop, Stroke, Raised)
 #: M19 turns the spindle to its angle, for which the axes stand whatever the machine file says.
 ORIENT = 19
+#: M03 and M04 have a spindle turn.
+TURNING = (3, 4)
 #: In the order of the steps of a chunk: an event, or a thread that begins, not the number of a context.
 EVENT, THREAD = -1, -2
 #: Moves that lead nowhere where they end at their start.
@@ -119,6 +121,7 @@ class Waits:
         self._search, self._pockets = Search(machine.magazine), dict[int, int]()
         self.stand_in(tool)
         self._rpm: dict[int, float] = {}
+        self._resting: dict[int, tuple[object, ...]] = {}
         self._context = -1
         self._radius: float | None = None
         self._has_followed = False  # the spindle has followed the radius of a cut since it was told a speed
@@ -219,29 +222,41 @@ class Waits:
         """
         context = self.contexts[number]
         last = self.contexts[self._context] if self._context >= 0 else None
+        self._take_tool(row, number)
+        spindle, self._has_followed = self.spindle(context), False
+        if spindle is None or self._resting.get(spindle.number) == _command(context):
+            return
+        self._resting.pop(spindle.number, None)
+        if last is not None and last.surface_speed and self.spindle(last) is spindle:
+            self._rpm[spindle.number] = last.spindle_direction * self.rpm(last, here)
+        self._to_speed(row, number, spindle, ahead, follows=last is not None and last.surface_speed)
+
+    def _to_speed(self, row: int, number: int, spindle: Spindle, ahead: float, *, follows: bool) -> None:
+        """A spindle goes to the speed of a context at a radius; `follows`: it has followed another one so far."""
+        context = self.contexts[number]
+        target = context.spindle_direction * self.rpm(context, ahead)
+        change = abs(target - self._rpm.get(spindle.number, 0.0))
+        stands = self.stands_for_speed(spindle)
+        self._turn(row, spindle, target, change, is_even=stands and not context.surface_speed)
+        if change > 0.0 and spindle.acceleration_rpm_s > 0.0:
+            if stands:
+                self.wait(row, "spindle_s", number, change / spindle.acceleration_rpm_s)
+            else:
+                self._run_up(row, spindle, target, self._rpm.get(spindle.number, 0.0) if follows else None)
+        self._rpm[spindle.number] = target
+
+    def _take_tool(self, row: int, number: int) -> None:
+        """The tool of a context, which is changed if it is another one. No tool is no place of a turret: it stays."""
+        context = self.contexts[number]
         tool = (context.tool, context.tool_name)
         if self._at_start and self._at_start in (tool[0], tool[1].upper()):
             self._tool = tool  # contexts know number and name, the start knows one of them
         self._at_start = 0
+        if not any(tool) and self.machine.magazine.kind == "turret":
+            return
         if tool != self._tool and (any(tool) or any(self._tool)):
             self._change(row, number, self._tool[0], tool[0])
         self._tool = tool
-        spindle, self._has_followed = self.spindle(context), False
-        if spindle is not None:
-            if last is not None and last.surface_speed and self.spindle(last) is spindle:
-                self._rpm[spindle.number] = last.spindle_direction * self.rpm(last, here)
-            target = context.spindle_direction * self.rpm(context, ahead)
-            change = abs(target - self._rpm.get(spindle.number, 0.0))
-            stands = self.stands_for_speed(spindle)
-            self._turn(row, spindle, target, change, is_even=stands and not context.surface_speed)
-            if change > 0.0 and spindle.acceleration_rpm_s > 0.0:
-                if stands:
-                    self.wait(row, "spindle_s", number, change / spindle.acceleration_rpm_s)
-                else:
-                    follows = last is not None and last.surface_speed
-                    since = self._rpm.get(spindle.number, 0.0) if follows else None
-                    self._run_up(row, spindle, target, since)
-            self._rpm[spindle.number] = target
 
     def stands_for_speed(self, spindle: Spindle) -> bool:
         """Whether a block that asks for another speed of a spindle waits for it."""
@@ -323,11 +338,12 @@ class Waits:
         self._rpm[spindle.number], self._has_followed = target, False
 
     def _change(self, row: int, number: int, before: int, after: int) -> None:
-        """The tool is changed.
+        """The tool is changed, once its spindle stands.
 
         Without an arm the magazine first takes the old tool back to its place. With one it has turned to the new tool
         since its T; the old tool gets the place of the new one.
         """
+        self._stop_tool(row, number)
         for spindle, turning in self._turning.items():
             if self._rpm[spindle] == 0.0:  # it comes to rest
                 self.step(Awaits(row, turning, number))
@@ -347,6 +363,35 @@ class Waits:
                 self._pockets[before] = place or before
             self._pockets[after] = 0
         self.wait(row, "tool_change_s", number, seconds)
+
+    def stops_for_change(self, spindle: Spindle | None) -> bool:
+        """Whether a spindle comes to rest for a change of the tool: it carries one, out of a magazine."""
+        kind = self.machine.magazine.kind
+        return kind == "magazine" and spindle is not None and spindle.carries == "tool"
+
+    def _stop_tool(self, row: int, number: int) -> None:
+        """A spindle that turns the tool comes to rest for its change, and stands until the program tells it to turn."""
+        spindle = self.spindle(self.contexts[number])
+        if spindle is not None and self.stops_for_change(spindle) and self._rpm.get(spindle.number):
+            self._bring_to_rest(row, number, spindle, "tool_change_s")
+            self._resting[spindle.number] = _command(self.contexts[self._context])
+
+    def _bring_to_rest(self, row: int, number: int, spindle: Spindle, share: str) -> None:
+        """A row waits until a spindle stands; `share` is the field of `Times` that this counts for."""
+        rpm, pull = abs(self._rpm.get(spindle.number, 0.0)), spindle.acceleration_rpm_s
+        if rpm > 0.0 and pull > 0.0 and self.stands_for_speed(spindle):
+            self._turn(row, spindle, 0.0, rpm, is_even=True)
+            self.wait(row, share, number, rpm / pull)
+        elif rpm > 0.0 and pull > 0.0:
+            self._run_up(row, spindle, 0.0, None)
+        if spindle.number in self._turning:
+            self.step(Awaits(row, self._turning[spindle.number], number, share=share))
+        self._rpm[spindle.number] = 0.0
+
+    def _start_again(self, row: int, number: int, spindle: Spindle | None) -> None:
+        """A spindle that rests since a change of its tool is told to turn, whatever its speed."""
+        if spindle is not None and self._resting.pop(spindle.number, None) is not None:
+            self._to_speed(row, number, spindle, self._radius or 0.0, follows=False)
 
     def _select(self, row: int, tool: str | float) -> None:
         """T: a magazine with an arm turns to the tool beside what comes."""
@@ -392,6 +437,9 @@ class Waits:
             return
         code, context = event.code, chunk.context[row]
         function = self.machine.m_functions.get(code)
+        spindle = self._spindle_of(event, context)
+        if code in TURNING or (function is not None and function.does.startswith("spindle_")):
+            self._start_again(chunk.first + row, context, spindle)
         if function is not None and function.seconds > 0.0:
             first, last = self._block_of(chunk, row)
             if code != ORIENT and self.machine.goes_beside(code) and _moves(chunk, first, last):
@@ -400,12 +448,15 @@ class Waits:
                 )
             else:
                 self.wait(chunk.first + row, "auxiliary_s", context, function.seconds)
-        if code == ORIENT:
+        if code == ORIENT and spindle is not None:
             self._lose(chunk.first + row, context)
-            spindle = self.spindle(self.contexts[context])
-            if spindle is not None and spindle.number in self._turning:
-                self.step(Awaits(chunk.first + row, self._turning[spindle.number], context))
-            self.wait(chunk.first + row, "spindle_s", context, spindle.orient_s if spindle else 0.0)
+            self._bring_to_rest(chunk.first + row, context, spindle, "spindle_s")
+            self.wait(chunk.first + row, "spindle_s", context, spindle.orient_s)
+
+    def _spindle_of(self, event: Auxiliary, number: int) -> Spindle | None:
+        """The spindle that a function is for: the one that it names, else that of the context."""
+        named = self.machine.spindle.get(event.spindle) if event.spindle is not None else None
+        return named or self.spindle(self.contexts[number])
 
     def _block_of(self, chunk: Chunk, row: int) -> tuple[int, int]:
         """The first and the last row that the block of a row made."""
@@ -500,6 +551,12 @@ class Waits:
 
     def _exact(self, number: int) -> bool:
         return self.contexts[number].stops
+
+
+def _command(context: Context) -> tuple[object, ...]:
+    """What a context asks of its spindle."""
+    speed = context.surface_m_min if context.surface_speed else context.spindle_rpm
+    return context.spindle_direction, context.surface_speed, speed
 
 
 def _nobody(_step: Step) -> None:

@@ -27,8 +27,9 @@ class PathModeState(State, lifetime=Lifetime.RESET):
     exact_stop: bool = lasting(Lifetime.BLOCK, default=False)
 
 
-#: What the codes of group 15 make of corners; under all others the path is continuous.
-CORNER_MODES = {"G61": CornerMode.EXACT_STOP, "G61.1": CornerMode.EXACT_STOP}
+#: What the codes of group 15 make of corners; under all others the path is continuous. So it is under G61.1 of MELDAS,
+#: which plans ahead and brakes for corners as far as they need it (M700 programming manual, high-accuracy control).
+CORNER_MODES = {"G61": CornerMode.EXACT_STOP}
 HIGH_ACCURACY = "G61.1"
 #: How the axes are led: with limited jerk, by a law where cuts are planned ahead.
 BELL_SHAPED = MotionSettings(

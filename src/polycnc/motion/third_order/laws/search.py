@@ -22,8 +22,8 @@ SHARE = 0.4
 ROUNDS, PASSES, AROUND, LATER = 30, 1, 5, 3
 #: By what part the excess counts more in every round.
 RISING = 0.001
-#: What counts as kept; beyond this much a first round may help by itself.
-KEPT, FAR = 1.0 + 4e-7, 1.2
+#: What counts as kept; beyond `FAR` x is not found yet, so the first `TRUST` rounds take no room away there.
+KEPT, FAR, TRUST = 1.0 + 4e-7, 1.2, 6
 #: By how many times the excess room is taken away, and how much more of it: few large steps; the same where there are
 #: few nodes; how much at most.
 STRONGER, MORE = 2.0, 0.02
@@ -154,7 +154,7 @@ def _repair(
             over = _over(most, k)
             if over > KEPT:
                 end = k
-                if rounds > 0 or over < FAR:
+                if rounds >= TRUST or over < FAR:
                     _lower(nodes, most, k, over * (1.0 + RISING * rounds), few)
             k += 1
         k = end = min(end + 1 + around, last)

@@ -17,6 +17,10 @@ if TYPE_CHECKING:
 
 #: Stretches, and changes of the slot, that there is room for at first.
 ROOM, CHANGES = 1024, 64
+#: The least time in which an axis builds its acceleration up along a run, s. Where the jerk allows less (by a time
+#: constant alone the acceleration builds up within 1 ms) x bends at once from node to node, which few steps of Newton's
+#: method do not find; from rest to rest this costs no more than that time.
+BUILD_S = 0.006
 
 
 class RunRoom:
@@ -76,8 +80,9 @@ class RunRoom:
 
 
 def axes_of(limits: Limits) -> Axes:
-    """What the axes can do in a run."""
-    return Axes(tops_of(limits), array("d", limits.acceleration), array("d", limits.jerk))
+    """What the axes can do in a run; none builds its acceleration up within less than `BUILD_S`."""
+    jerks = (min(jerk, pull / BUILD_S) for pull, jerk in zip(limits.acceleration, limits.jerk, strict=True))
+    return Axes(tops_of(limits), array("d", limits.acceleration), array("d", jerks))
 
 
 def _columns(path: Stretches) -> list[array[float]]:
