@@ -67,7 +67,7 @@ def plan_tool(builder: Builder) -> Step:
         channel.memory.tool.next = int(values[slot])
         channel.event(ToolSelection(_number(values[slot])))
 
-    return select
+    return declare(select, Note(slot, lowest=0.0))
 
 
 def plan_second_auxiliary(builder: Builder) -> Step:
@@ -114,6 +114,10 @@ def spindle_stop(channel: WordAddressChannel, _words: Words) -> None:
     """M05."""
     channel.memory.spindle.direction = 0
     channel.context_changed()
+
+
+for _handler in (spindle_clockwise, spindle_counter_clockwise, spindle_stop):
+    declare(_handler, lambda _plan: Note())
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,6 +15,7 @@ from polycnc.control.machine_words import (
     refuse,
 )
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.deferred.functions import Deferred
 from polycnc.deferred.records import replace
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import Note, declare, declared
@@ -45,7 +46,15 @@ def guarded(row: MCode, plc: Plc) -> MCode:
         if handler is not None:
             handler(channel, block)
 
+    if not plc.may_refuse(word) and not isinstance(handler, Deferred):
+        # Its outputs change, and nothing else than what the handler does.
+        declare(act, _notes if handler is None else declared(handler))
     return replace(row, handler=act)
+
+
+def _notes(_plan: Plan) -> Note:
+    """The code is told the machine."""
+    return Note()
 
 
 def unlisted(row: MCode, plc: Plc) -> MCode:
