@@ -14,6 +14,7 @@ from polycnc.control.machine_words import (
     refusal,
     refuse,
 )
+from polycnc.control.word_address.auxiliary.functions import notes
 from polycnc.control.word_address.block.rules import Rule
 from polycnc.deferred.functions import Deferred
 from polycnc.deferred.records import replace
@@ -46,15 +47,10 @@ def guarded(row: MCode, plc: Plc) -> MCode:
         if handler is not None:
             handler(channel, block)
 
-    if not plc.may_refuse(word) and not isinstance(handler, Deferred):
-        # Its outputs change, and nothing else than what the handler does.
-        declare(act, _notes if handler is None else declared(handler))
+    does_no_more = handler is None or (not isinstance(handler, Deferred) and declared(handler) is notes)
+    if does_no_more and not plc.may_refuse(word):
+        declare(act, notes)  # outputs change
     return replace(row, handler=act)
-
-
-def _notes(_plan: Plan) -> Note:
-    """The code is told the machine."""
-    return Note()
 
 
 def unlisted(row: MCode, plc: Plc) -> MCode:
