@@ -129,6 +129,10 @@ class Plc:
         """Whether any row answers to a word."""
         return word in self._refusals or word in self._latches
 
+    def may_refuse(self, word: str) -> bool:
+        """Whether a row refuses a word in some state."""
+        return word in self._refusals
+
     def refusal(self, word: str, value: Values) -> PlcAlarm | None:
         """The row that refuses a word in the state that `value` tells; None where it is carried out."""
 

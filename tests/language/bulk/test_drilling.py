@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from polycnc.control.word_address.auxiliary.functions import Clocks
 from polycnc.language.bulk.layout import MOST_STROKES
-from tests.language.bulk.both_ways import PLAIN, differences, scanned
+from tests.language.bulk.both_ways import PLAIN, differences, run, scanned, variables
 from tests.language.bulk.programs import words
 
 CYCLES = (
@@ -19,6 +20,7 @@ CYCLES = (
     "G99 G73 Z-7.5 R0 Q1.5 F90",
     "G82 Z-5. R2. P100 F100",
     "G82 Z-5. R2. P0 F100",
+    "G89 Z-5. R2. P250 F100",
     "G84 Z-5. R2. F100",
     "G85 Z-3. R1. F50",
     "G76 Z-3. R1. Q0.1 F50",
@@ -104,3 +106,21 @@ def test_no_hole_is_the_interpreters_where_the_room_ends(cycle: str) -> None:
         scanned("\n".join(lines), "fanuc-m", bulk=replace(PLAIN, rooms=rooms)) for rooms in (16_384, 50)
     )
     assert narrow == wide >= 300
+
+
+@pytest.mark.parametrize("cycle", ["G82 Z-5. R2. P100 F100", "G89 Z-5. R2. P100 F100"])
+@pytest.mark.parametrize("control_id", ["fanuc-m", "meldas-m"])
+def test_holes_with_a_dwell_are_scanned(cycle: str, control_id: str) -> None:
+    holes = "".join(f"X{i}. Y1.\n" for i in range(200))
+    text = f"O1\nG90 G54 G0 X0 Y0 Z10.\nM3 S500\n{cycle}\n{holes}G80\n#1=#3001-#3001\nG2 X5. Y1. R900.\nM30\n"
+    assert scanned(text, control_id) >= 190
+    assert differences(text, control_id) == []
+
+
+def test_the_clock_counts_dwells_of_holes() -> None:
+    """As #3001 does, milliseconds."""
+    holes = "".join(f"X{i}.\n" for i in range(200))
+    text = f"O1\nG90 G54 G0 X0 Y0 Z10.\nM3 S500\nG82 Z-5. R2. P100 F100\n{holes}G80\n#100=#3001\nM30\n"
+    one, other = (run(text, "fanuc-m", bulk=bulk) for bulk in (None, PLAIN))
+    assert variables(one) == variables(other)
+    assert Clocks.of(other).seconds == Clocks.of(one).seconds > 20.0

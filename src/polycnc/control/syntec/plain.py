@@ -13,7 +13,12 @@ if TYPE_CHECKING:
     from polycnc.language.bulk.scanner import LastMoves
 
 SPELLING = Spelling(
-    MAX_DIGITS, round_comments=True, starred_comments=True, slash_comments=True, hexadecimal=True
+    MAX_DIGITS,
+    round_comments=True,
+    starred_comments=True,
+    slash_comments=True,
+    hexadecimal=True,
+    m_codes=True,
 )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from array import array
 
 from polycnc.channel.states.unchanging import unchanging
+from polycnc.deferred.regexes import regex
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk.layout import Columns, NoteRecord
 from polycnc.program.long_text import LongText
@@ -18,6 +19,10 @@ if TYPE_CHECKING:
 
 #: Lines of the first window behind a jump, and of the largest; a window that is used up is followed by a larger one.
 FEWEST_LINES, MORE_LINES, MOST_LINES = 64, 4, 16_384
+#: The interpreter takes so many lines at the most before a window is read anew.
+MOST_SKIPPED = 64
+#: What stands in front of a block, where it is marked for block skip.
+_MARK = regex(r"[ \t]*(N[ \t]*\d+)?[ \t]*/\d?")
 #: Room for rows, and for notes and curves, at first; what has been filled becomes so much larger. Room for rows does
 #: when so many times as many have come: its memory is touched whole, and costs a short program more than its blocks.
 FIRST_ROWS, FIRST_OTHERS, MORE_ROOM = 4096, 64, 4
@@ -39,10 +44,14 @@ class Window:
         self.line = 0
         self.lines: Sequence[str] = ()
         self._size = FEWEST_LINES
+        self._folds = False
 
     def stand_at(self, lines: Sequence[str], line: int, end: int) -> bool:
         """Let a line be the next one; false where it is not in front of `end`, behind which nothing is read."""
-        if lines is not self.lines or not self.line <= line <= self.line + 1 or not self._skip_to(line):
+        if lines is not self.lines:
+            self._folds = False
+        ahead = line - self.line
+        if lines is not self.lines or not 0 <= ahead <= MOST_SKIPPED or not self._skip_to(line):
             self._size = (
                 min(MORE_LINES * self._size, MOST_LINES)
                 if lines is self.lines and line == self.line
@@ -52,19 +61,30 @@ class Window:
         return self.place < self.end
 
     def _skip_to(self, line: int) -> bool:
-        """Step over the line that the interpreter has taken."""
-        if line > self.line:
-            if self.place < self.end:
-                self.place = self.text.index(b"\n", self.place) + 1
-            self.line = line
+        """Step over the lines that the interpreter has taken."""
+        while self.line < line and self.place < self.end:
+            self.place = self.text.index(b"\n", self.place) + 1
+            self.line += 1
+        self.line = line
         return self.place < self.end
 
+    def fold(self) -> bool:
+        """Let small letters be capital ones from now on, where that line has some: the kernel reads no others."""
+        line = self.text[self.place : self.text.find(b"\n", self.place)]
+        if self._folds or not line or line == line.upper():
+            return False
+        self._folds = True
+        self.text = self.text.upper()
+        return True
+
     def next_line(self) -> str:
-        """That line as text; empty behind the last one that has been read."""
+        """That line as text, without a mark of block skip; empty behind the last one that has been read."""
         if self.place == self.end:
             return ""
         text = self.text[self.place : self.text.index(b"\n", self.place)]
-        return text.translate(None, CONTROLS).decode("utf-8")
+        line = text.translate(None, CONTROLS).decode("utf-8")
+        mark = _MARK.match(line) if "/" in line else None
+        return line if mark is None else line[mark.end() :]
 
     def _read(self, lines: Sequence[str], line: int, end: int) -> None:
         self.lines, self.line = lines, line
@@ -75,6 +95,8 @@ class Window:
         elif found := lines[line : min(line + self._size, end)]:
             self.text = ("\n".join(found) + "\n").encode("utf-8", "replace")
             self.end = len(self.text)
+        if self._folds:
+            self.text = self.text.upper()
 
 
 @unchanging

@@ -15,6 +15,7 @@ from polycnc.language.bulk.formulas.calculating import calculate
 from polycnc.language.bulk.formulas.reading import (
     begins_expression,
     begins_formula,
+    read_assignment,
     read_expression,
     read_formula,
     read_variable,
@@ -34,6 +35,7 @@ from polycnc.language.bulk.layout import (
     MOST_KEYS,
     MOST_LITERALS,
     MOST_WORDS,
+    PLAIN_MARK,
     Columns,
     Factor,
     Grammar,
@@ -63,11 +65,11 @@ NEWLINE, THREE = 10, 51
 LETTER_A, LETTER_C, LETTER_G, LETTER_M, LETTER_N, LETTER_O, LETTER_R, LETTER_X, LETTER_Z = (
     65, 67, 71, 77, 78, 79, 82, 88, 90
 )  # fmt: skip
-EQUALS_SIGN, OPEN, CLOSE, SEMICOLON, SLASH, STAR = 61, 40, 41, 59, 47, 42
+EQUALS_SIGN, OPEN, CLOSE, SEMICOLON, SLASH, STAR, HASH = 61, 40, 41, 59, 47, 42, 35
 #: Longer lines are for the interpreter, which has an alarm for them.
 LONGEST_LINE = 4096
-#: What `read_word` gives instead of a key: not plain, a block number.
-NO_KEY, BLOCK_NUMBER = -1, -2
+#: What `read_word` gives instead of a key: not plain.
+NO_KEY = -1
 #: What `read_block` gives instead of a node: a line without a block.
 NO_BLOCK = -1
 
@@ -152,31 +154,52 @@ def work_off(tables: Tables, state: State, columns: Columns, node: int) -> int:
 
 def read_block(tables: Tables, state: State) -> tuple[int, int]:
     """Place of the line end behind the next block, -1 for one that is not plain, and the node of its shape."""
-    text, nexts = tables.text, tables.nexts
-    place, node = state.scan.place, state.scan.root
-    keys = values = literals = 0
+    text, grammar = tables.text, state.scan.grammar
+    place, levels, is_numbered = read_head(text, state.scan.place, grammar)
+    if place < 0 or (levels and state.scan.skipped < 0):
+        return -1, 0
+    if text[place] == HASH and grammar & Grammar.FORMULAS:
+        place, node, keys, literals = read_assignment(text, tables.nexts, state, place, state.scan.root)
+        if place < 0:
+            return -1, 0
+        place, node, is_block = read_words(text, tables.nexts, state, place, node, keys, literals)
+        is_block = True
+    else:
+        place, node, is_block = read_words(text, tables.nexts, state, place, state.scan.root, 0, 0)
+    if place >= 0 and levels & state.scan.skipped:
+        return (-1 if grammar & Grammar.BLANK_LINES_ARE_NONE else place), NO_BLOCK
+    return place, node if is_block or levels or is_numbered else NO_BLOCK
+
+
+def read_words(
+    text: Text, nexts: Ints32, state: State, place: int, node: int, keys: int, literals: int
+) -> tuple[int, int, bool]:
+    """Follow the words of a block down the shape tree.
+
+    Returns:
+        Place of the line end, -1 where it is not plain; the node, and whether there is a word or an end of a block.
+    """
+    values = 0
     is_block = False
     while True:
         char = int(text[place])
         if has_formula(text, place, state.scan.grammar):
             if keys == MOST_KEYS or values == MOST_WORDS:
-                return -1, 0
+                return -1, 0, False
             is_block = True
             place, node, keys, literals = read_calculated(text, nexts, state, place, node, keys, literals)
             if place < 0:
-                return -1, 0
+                return -1, 0, False
             values += state.keys[state.scan.keys] != ASSIGNED
             state.scan.keys = keys
         elif LETTER_A <= char <= LETTER_Z:
             place, key, value = read_word(text, place, state.scan.grammar, state.scan.most_digits)
-            if key == NO_KEY or keys == MOST_KEYS or (key == BLOCK_NUMBER and is_block):
-                return -1, 0
+            if key == NO_KEY or keys == MOST_KEYS:
+                return -1, 0, False
             is_block = True
-            if key == BLOCK_NUMBER:
-                continue
             if key < FIRST_CODE:
                 if values == MOST_WORDS:
-                    return -1, 0
+                    return -1, 0, False
                 state.values[values] = value
                 values += 1
             state.keys[keys] = key
@@ -191,10 +214,40 @@ def read_block(tables: Tables, state: State) -> tuple[int, int]:
             ends_block = char == SEMICOLON and not state.scan.grammar & Grammar.SEMICOLON_COMMENTS
             place = read_rest(text, place, state.scan.grammar)
             if place < 0:
-                return -1, 0
+                return -1, 0, False
             is_block = is_block or ends_block
     state.scan.keys = keys
-    return place, node if is_block else NO_BLOCK
+    return place, node, is_block
+
+
+def read_head(text: Text, place: int, grammar: int) -> tuple[int, int, bool]:
+    """Place behind a mark of block skip and a block number, -1 where these are not plain; the level, by its bit.
+
+    Then whether there is a number.
+    """
+    levels, is_numbered = 0, False
+    while True:
+        char = int(text[place])
+        if char in (BLANK, TAB):
+            place += 1
+        elif char == LETTER_N and not is_numbered and ZERO <= text[place + 1] <= NINE:
+            is_numbered = True
+            place += 1
+            while ZERO <= text[place] <= NINE:
+                place += 1
+        elif char == SLASH and levels == 0 and text[place + 1] != SLASH:
+            if is_numbered and grammar & Grammar.BLANK_LINES_ARE_NONE:
+                return -1, 0, False
+            place, levels = read_mark(text, place + 1)
+        else:
+            return place, levels, is_numbered
+
+
+def read_mark(text: Text, place: int) -> tuple[int, int]:
+    """Place behind a mark of block skip, whose slash is read, and its level by its bit."""
+    if ZERO <= text[place] <= NINE:
+        return place + 1, 1 << (int(text[place]) - ZERO)
+    return place, 1 << PLAIN_MARK
 
 
 def has_formula(text: Text, place: int, grammar: int) -> bool:
@@ -261,14 +314,14 @@ def read_word(text: Text, place: int, grammar: int, most_digits: int) -> tuple[i
     """Place behind the word that begins here, its key, and its value; `NO_KEY` where it is not plain."""
     letter = int(text[place])
     place += 1
-    if letter in (LETTER_G, LETTER_N) or (letter == LETTER_M and grammar & Grammar.M_CODES):
+    if letter == LETTER_N:
+        return place, NO_KEY, 0.0  # it stands at the head
+    if letter == LETTER_G or (letter == LETTER_M and grammar & Grammar.M_CODES):
         number, digits = 0, 0
         while ZERO <= text[place] <= NINE:
             number = number * 10 + int(text[place]) - ZERO if digits < EXACT_DIGITS else LAST_CODE
             digits += 1
             place += 1
-        if letter == LETTER_N:
-            return place, BLOCK_NUMBER if digits else NO_KEY, 0.0
         last = LAST_CODE if letter == LETTER_G else LAST_M_CODE
         if digits == 0 or number >= last or text[place] == POINT:
             return place, NO_KEY, 0.0

@@ -21,6 +21,8 @@ MOST_WORDS, MOST_LITERALS, MOST_KEYS = 24, 72, 128
 NUMBERED, VARIABLES = 1000, 4000
 #: Values that a formula may have at a time, and such that it keeps for later; variables that a line may change.
 STACK, HELD, CHANGES = 32, 8, 16
+#: Bit of a mark of block skip without a level.
+PLAIN_MARK = 10
 #: Local variables of a macro, with one that there is not; numbers of loops, likewise.
 LOCALS, LOOPS = 34, 4
 #: Routines that may have called each other.
@@ -35,7 +37,7 @@ class Strokes(Places):
 
     How many, -1 for what the interpreter must do; root of the modal state in which that is so; the axis; where the tool
     must stand on it, and at which feed; where it stands behind them; how many blocks they count; the lowest and the
-    highest of their places. Then kind, feed and place of each.
+    highest of their places; how many of them are dwells. Then kind, feed (of a dwell its seconds) and place of each.
     """
 
     COUNT = place()
@@ -46,6 +48,7 @@ class Strokes(Places):
     END = place()
     BLOCKS = place()
     RANGE = place(2)
+    DWELLS = place()
     FIRST = place(3 * MOST_STROKES)
 
 
@@ -81,8 +84,11 @@ class Scan(Structure):
         most_digits: Digits that a number may have.
         keys: Keys of the block that is being read.
         numbered: Variables that text may name by their numbers.
+        skipped: Levels of block skip that are on, by bits, `PLAIN_MARK` for a mark without one; below zero where marked
+            blocks are the interpreter's.
         changes: Variables that the line which is being worked out has changed.
         turned: Blocks that have stood the tool along a direction.
+        dwells: Dwells in holes.
         feed: The channel's feed.
         tolerance: Allowed difference between the radii at an arc's start and end, mm.
     """
@@ -121,8 +127,10 @@ class Scan(Structure):
     most_digits: int
     keys: int
     numbered: int
+    skipped: int
     changes: int
     turned: int
+    dwells: int
     feed: float
     tolerance: float
 
@@ -357,7 +365,8 @@ class NoteRecord(Places):
 class Token(Places):
     """What a formula in a block is written with; `VARIABLE`, `NUMBER` and `DECIMAL` have a number each.
 
-    Where the form of a number counts, `DECIMAL` is one with a point.
+    Where the form of a number counts, `DECIMAL` is one with a point. `NUMBERED` is the sign of a variable whose number
+    follows in brackets.
     """
 
     OPEN = place()
@@ -379,6 +388,15 @@ class Token(Places):
     ROUND = place()
     TRUNC = place()
     POT = place()
+    ASIN = place()
+    ACOS = place()
+    ATAN = place()
+    MOD = place()
+    AND = place()
+    OR = place()
+    XOR = place()
+    COMMA = place()
+    NUMBERED = place()
 
 
 class Operation(Places):
@@ -390,11 +408,13 @@ class Operation(Places):
     decides, or it is 0, or no number), or no number, the variable at a place, the argument itself, what was kept.
 
     The value is kept for later, and stays; it becomes that of a word, of the variable of a number of the formula, of
-    the one at a place, or of an element (its index on top) of those from a place on.
+    the one whose number is below it, of the one at a place, or of an element (its index on top) of those from a place
+    on.
 
-    Of one value: an element from a place on, by its index; the index as it is, if there are so many elements. A whole
-    number stays one (of those that are exact; of INT). Signs, truth, functions; operators between two values;
-    comparisons between two.
+    Of one value: the variable of that number (as above, while it is vacant); an element from a place on, by its index;
+    the index as it is, if there are so many elements. A whole number stays one (of those that are exact; of INT).
+    Signs, truth, functions (`TANGENT`, `HALF_AWAY`, `MODULO` and those of bits as custom macro B has them, `TURN` an
+    angle within a turn); operators between two values; comparisons between two.
     """
 
     END = place()
@@ -412,9 +432,13 @@ class Operation(Places):
     HOLD = place()
     STORE = place()
     ASSIGN = place()
+    ASSIGN_NUMBERED = place()
     PUT = place()
     PUT_ELEMENT = place()
 
+    NUMBERED = place()
+    NUMBERED_OR_ZERO = place()
+    NUMBERED_OR_VACANT = place()
     ELEMENT = place()
     WITHIN = place()
     EXACT = place()
@@ -434,6 +458,10 @@ class Operation(Places):
     CEIL = place()
     FIX = place()
     FUP = place()
+    ATAN = place()
+    TURN = place()
+    TANGENT = place()
+    HALF_AWAY = place()
 
     ADD = place()
     SUBTRACT = place()
@@ -442,6 +470,10 @@ class Operation(Places):
     QUOTIENT = place()
     REMAINDER = place()
     ATAN2 = place()
+    MODULO = place()
+    BITS_AND = place()
+    BITS_OR = place()
+    BITS_XOR = place()
     LESSER = place()
     GREATER_ONE = place()
     AND = place()
@@ -497,10 +529,10 @@ FIRST_CODE = 26 * FORMS
 LAST_CODE = 1000
 FIRST_M_CODE, LAST_M_CODE = FIRST_CODE + LAST_CODE, 100
 FIRST_FORMULA = FIRST_M_CODE + LAST_M_CODE
-#: `CR=` with a formula; an assignment, for `R1=` is a word of R with one.
+#: `CR=` with a formula; an assignment (`R1=`, `#1=`), which is no word: `R[#1]` is one of R.
 CR_FORMULA = FIRST_FORMULA + 26
-ASSIGNED = FIRST_FORMULA + ord("R") - ord("A")
-FIRST_TOKEN = CR_FORMULA + 1
+ASSIGNED = CR_FORMULA + 1
+FIRST_TOKEN = ASSIGNED + 1
 #: Begins the keys of a line that a routine knows by its number; figures follow, as tokens.
 LINE_KEY = FIRST_TOKEN + Token.SIZE
 KEY_COUNT = LINE_KEY + 1

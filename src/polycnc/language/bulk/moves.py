@@ -25,7 +25,7 @@ from polycnc.toolpath.kinds import CURVE_WIDTH, NO_CURVE, Kind
 from polycnc.transformation.orientation.records import StandRecord
 from polycnc.transformation.orientation.standing import stand
 
-RAPID, STRAIGHT = int(Kind.RAPID), int(Kind.FEED)
+RAPID, STRAIGHT, DWELL = int(Kind.RAPID), int(Kind.FEED), int(Kind.DWELL)
 CIRCLE_CW, CIRCLE_CCW = int(Kind.CW), int(Kind.CCW)
 SCREW_CW, SCREW_CCW = int(Kind.HELIX_CW), int(Kind.HELIX_CCW)
 #: Ways shorter than this (mm, degrees) count as none; ways about as long are in doubt.
@@ -79,6 +79,8 @@ def may_drill(state: State, axis: int, feed: float) -> bool:
         return False
     if feed != strokes[Strokes.FEED] or state.position[axis] != strokes[Strokes.LEVEL]:
         return False
+    if scan.curves + strokes[Strokes.DWELLS] > scan.most_curves:
+        return False
     if scan.rows + count >= scan.most_rows or scan.blocks + strokes[Strokes.BLOCKS] >= scan.most_blocks:
         return False
     level, is_free = state.new_position[axis], True
@@ -96,10 +98,24 @@ def drill(state: State, columns: Columns) -> None:
     for i in range(int(strokes[Strokes.COUNT])):
         stroke = Strokes.FIRST + 3 * i
         state.new_position[axis] = strokes[stroke + 2]
-        put_row(state, int(strokes[stroke]), strokes[stroke + 1], NO_CURVE, columns)
+        if int(strokes[stroke]) == DWELL:
+            put_dwell(state, strokes[stroke + 1], columns)
+        else:
+            put_row(state, int(strokes[stroke]), strokes[stroke + 1], NO_CURVE, columns)
     state.position[axis] = state.programmed[axis] = strokes[Strokes.END]
     state.pending[axis] = 0.0
     state.scan.blocks += int(strokes[Strokes.BLOCKS])
+
+
+def put_dwell(state: State, seconds: float, columns: Columns) -> None:
+    """Write a dwell as a row."""
+    curve = state.scan.curves * CURVE_WIDTH
+    columns.curves[curve] = seconds
+    for i in range(1, CURVE_WIDTH):
+        columns.curves[curve + i] = 0.0
+    put_row(state, DWELL, nan, state.scan.first_curve + state.scan.curves, columns)
+    state.scan.curves += 1
+    state.scan.dwells += 1
 
 
 def stood(state: State, rules: Ints32, rule: int) -> bool:

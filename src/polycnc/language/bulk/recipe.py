@@ -114,7 +114,7 @@ class Drilled(NamedTuple):
         level: Where the tool stands on it, `feed` the feed in force: for others they are not known.
         end: Where it stands behind them.
         blocks: How many blocks they count.
-        strokes: Kind, feed and place of each.
+        strokes: Kind, feed and place of each; of a dwell its seconds in place of a feed.
     """
 
     axis: int
@@ -159,12 +159,15 @@ class Note(NamedTuple):
         lowest: A smaller value is the interpreter's.
         condition: While it does not hold, the step is the interpreter's.
         step: What is called where the condition holds; the whole step, if None.
+        apart: What it writes is told apart from rows of the same line (`Toolpath.set_block_apart`): a block that moves
+            beside it is the interpreter's.
     """
 
     slot: int = -1
     lowest: float = -inf
     condition: Condition | None = None
     step: Step | None = None
+    apart: bool = False
 
 
 class Enter(NamedTuple):
@@ -271,7 +274,7 @@ class Conditions:
                     motion = part
                 else:
                     return None
-        if sum(note.slot >= 0 for _, note in notes) > 1:
+        if sum(note.slot >= 0 for _, note in notes) > 1 or (motion and any(note.apart for _, note in notes)):
             return None
         return Recipe(state, feed, motion, tuple(notes))
 

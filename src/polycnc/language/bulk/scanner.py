@@ -15,7 +15,7 @@ from polycnc.language.bulk.layout import Columns, State, Tables, new_state
 from polycnc.language.bulk.routines.layout import NO_ROUTINE
 from polycnc.language.bulk.shapes import Shapes
 from polycnc.messages import AlarmError
-from polycnc.toolpath.kinds import CURVE_WIDTH
+from polycnc.toolpath.kinds import CURVE_WIDTH, Kind
 from polycnc.toolpath.table import CHUNK_ROWS
 
 if TYPE_CHECKING:
@@ -91,11 +91,17 @@ class Dialect(Protocol):
     def tool(self, channel: Channel) -> Sequence[float]:
         """What must be known to stand the tool along a direction; nothing where no block names one."""
 
+    def skipped(self, channel: Channel) -> int:
+        """Levels of block skip that are on (`layout.Scan.skipped`)."""
+
     def drilled(self, channel: Channel) -> Drilled | None:
         """The strokes of the next hole; None where the interpreter drills."""
 
     def turned(self, channel: Channel, start: list[float], end: list[float]) -> None:
         """Blocks have stood the tool along directions, the last one between two positions."""
+
+    def stood(self, channel: Channel, times: int, seconds: float) -> None:
+        """Holes have had so many dwells of so many seconds."""
 
     def moved(self, channel: Channel, last: LastMoves) -> None:
         """Blocks have moved the channel; for controls that remember how."""
@@ -216,13 +222,17 @@ class Scanner:
         outcome = self._scanned(channel) if channel.path.is_idle else self._staged(channel)
         if outcome == layout.Outcome.UNKNOWN:
             return self._learn(channel, window.next_line()) and channel.level is level
+        known = False
+        if self._routines is not None:
+            # Within a program that has been called, too: the next call finds it known.
+            if outcome == layout.Outcome.UNREAD:
+                known = self._routines.read_lines(channel)
+            elif outcome == layout.Outcome.UNKNOWN_PROGRAM:
+                known = self._routines.learn_callee(channel)
         if channel.level is not level:
             return False
-        if self._routines is not None:
-            if outcome == layout.Outcome.UNREAD:
-                return self._routines.read_lines(channel)
-            if outcome == layout.Outcome.UNKNOWN_PROGRAM:
-                return self._routines.learn_callee(channel)
+        if known or (outcome == layout.Outcome.NOT_PLAIN and window.fold()):
+            return True
         room = len(channel.toolpath.chunk) < CHUNK_ROWS and channel.blocks < channel.block_limit
         return outcome == layout.Outcome.AT_END or (outcome == layout.Outcome.FULL and room)
 
@@ -360,7 +370,7 @@ class Scanner:
 
     def _turned(self, channel: ScannedChannel) -> bool:
         """One call of the kernel for a loop; true if it may be called again at once."""
-        routines, level, at = self._needed_routines(), channel.level, self._state.scan
+        routines, at = self._needed_routines(), self._state.scan
         if routines is None:
             return False
         self._put_state(channel)
@@ -381,7 +391,7 @@ class Scanner:
         elif outcome == layout.Outcome.UNREAD:
             learnt = routines.read_lines(channel)
         elif outcome == layout.Outcome.UNKNOWN_PROGRAM:
-            learnt = channel.level is level and routines.learn_callee(channel)
+            learnt = routines.learn_callee(channel)
         else:
             learnt = outcome == layout.Outcome.FULL and at.blocks > 0
         # Where the scan has ended within a program that it has called, it goes on there.
@@ -431,10 +441,10 @@ class Scanner:
             self._routines.begin()
         limits = () if _is_guarded(channel) else dialect.limits(channel)
         at.limited = bool(limits)
-        at.numbered = dialect.numbered(channel)
+        at.numbered, at.skipped = dialect.numbered(channel), dialect.skipped(channel)
         at.grammar, at.most_digits = spelling.flags, spelling.max_digits
         at.feed, at.tolerance = channel.feed, dialect.tolerance(channel)
-        at.turned, state.tool[0] = 0, -1.0
+        at.turned, at.dwells, state.tool[0] = 0, 0, -1.0
         _put(state.tool, dialect.tool(channel))
         _put_strokes(state.strokes, at.root, dialect.drilled(channel))
         at.rows, at.most_rows = 0, self._most_rows(channel)
@@ -471,8 +481,10 @@ class Scanner:
             channel.level.current = code.step_of_line(line - code.program.first_line)
             channel.coordinates.position = position
             self._dialect.enter(channel, self._shapes.state_behind(rule))
+            channel.mark = len(channel.toolpath.chunk)
             for step, note in self._shapes.notes[rule]:
                 step(channel, {note.slot: value})
+            channel.mark = channel.toolpath.end_block()
         self._add_rows(channel, taken, state.scan.rows, list(state.position))
 
     def _add_rows(self, channel: Channel, first: int, end: int, position: list[float]) -> None:
@@ -497,8 +509,11 @@ class Scanner:
             c.pending = list(state.pending)
         if state.scan.turned:
             self._dialect.turned(channel, list(state.turned_from), list(state.turned_to))
+        if state.scan.dwells:
+            self._dialect.stood(channel, state.scan.dwells, _dwell(state.strokes))
         if state.scan.rows:
-            self._dialect.moved(channel, self._last_moves(state.scan.rows, state.scan.curves))
+            arcs = state.scan.curves - state.scan.dwells
+            self._dialect.moved(channel, self._last_moves(state.scan.rows, arcs))
 
     def _last_moves(self, rows: int, curves: int) -> LastMoves:
         columns, (x, y, z) = self._room.columns, self._state.last_center
@@ -531,8 +546,16 @@ def _put_strokes(numbers: Floats, root: int, drilled: Drilled | None) -> None:
         return
     axis, level, feed, end, blocks, strokes = drilled
     places = [place for _, _, place in strokes] or [level]
-    head = (len(strokes), root, axis, level, feed, end, blocks, min(places), max(places))
+    dwells = sum(kind == Kind.DWELL for kind, _, _ in strokes)
+    head = (len(strokes), root, axis, level, feed, end, blocks, min(places), max(places), dwells)
     _put(numbers, (*head, *(number for stroke in strokes for number in stroke)))
+
+
+def _dwell(strokes: Floats) -> float:
+    """Seconds of a dwell of the hole."""
+    first = layout.Strokes.FIRST
+    ends = first + 3 * int(strokes[layout.Strokes.COUNT])
+    return next(strokes[i + 1] for i in range(first, ends, 3) if strokes[i] == Kind.DWELL)
 
 
 def _put_frame(numbers: Floats, frame: Frame) -> bool:

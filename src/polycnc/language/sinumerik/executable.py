@@ -265,6 +265,10 @@ class SinumerikProgram:
         """Compile the block of a step."""
         return compile_block(self, index, channel)
 
+    def unmarked(self, index: int, channel: Channel, text: str) -> CompiledBlock:
+        """As `compiled`; of a block that is marked for block skip, its text without the mark."""
+        return compile_block(self, index, channel, text if prefix_of(self.text(index)).skip >= 0 else None)
+
     def _joined(self, index: int, channel: Channel) -> Step | None:
         """A step for the blocks from here on that have been run before; None if there is nothing to join."""
         for join in [join for join, exits in self._joins.items() if index in exits]:

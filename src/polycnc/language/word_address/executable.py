@@ -16,7 +16,14 @@ from polycnc.language.expressions.joined import MAX_JOINED, MOST_JOINS, led_by
 from polycnc.language.word_address.joining import JOINABLE, join, join_loop
 from polycnc.language.word_address.macro_b import Lifting, Reader, macro_shapes
 from polycnc.language.word_address.patterns import Patterns, Spot, negative
-from polycnc.language.word_address.statements import KEYWORD, Assignment, LoopEnd, parse_statement
+from polycnc.language.word_address.statements import (
+    KEYWORD,
+    Assignment,
+    LoopEnd,
+    leads_back,
+    parse_statement,
+    target_of,
+)
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock, code_key, is_fixed_code, word_key
 from polycnc.messages import AlarmError
 
@@ -54,6 +61,10 @@ _NAME = regex(r"[ \t]*P?[ \t]*(<[^<>]+>)")
 REPEATABLE = (WordBlock, ExpressionBlock, Assignment)
 #: Runs of a step after which it is joined with those behind it.
 JOINED_FROM = 8
+
+
+#: Programs whose lines are read all at once where they come round again.
+SHORT = 256
 
 
 @dataclass(frozen=True)
@@ -139,7 +150,7 @@ class WordAddressProgram:
         step = self._single(index)
         reached, joinable = self._reached[index], isinstance(step, JOINABLE) and not alone
         if reached >= JOINED_FROM or (reached and not joinable):
-            step = self.steps[index] = self._joined(step, index) if joinable else step
+            step = self.steps[index] = self._joined(step, index) if joinable else self._hot(step, index)
         elif reached:
             self._singles[index] = step
         self._reached[index] = min(reached + 1, JOINED_FROM)
@@ -164,7 +175,26 @@ class WordAddressProgram:
                 break
             self._joined_into[i] += 1
             stretch.append((i, following))
+        if any(leads_back(step, i) for i, step in stretch):
+            return HotLoop(join(self.grammar.shapes, stretch) if len(stretch) > 1 else first, first)
         return led_by(first, join(self.grammar.shapes, stretch)) if len(stretch) > 1 else first
+
+    @staticmethod
+    def _hot(step: Step, index: int) -> Step:
+        """A step that is not joined; one at which a loop comes round again."""
+        return HotLoop(step, step) if isinstance(step, LoopEnd) or leads_back(step, index) else step
+
+    def jumps_around(self, index: int) -> list[tuple[int, int]]:
+        """First and last step of each part of the program within which a jump behind a step leads back in front of it.
+
+        Of a program that is not long that is all of it: what comes round again may lie anywhere.
+        """
+        steps = [
+            (last, self._single(last) if self._reached[last] else None)
+            for last in range(index, min(index + MAX_JOINED, len(self.lines)))
+        ]
+        around = [(target_of(step), last) for last, step in steps if leads_back(step, index)]
+        return [(0, len(self.lines) - 1)] if around and len(self.lines) <= SHORT else around
 
     def line_of_step(self, index: int) -> int:
         """Index of a step's line in the program's text."""
@@ -521,6 +551,10 @@ class SkippedBlock:
         self._off = off
         self._on = on
 
+    def chosen(self, channel: Channel) -> Step:
+        """The step that runs under the operator's switches."""
+        return self._on if channel.skip_levels & self._levels else self._off
+
     def is_left_out(self, channel: Channel) -> bool:
         """Whether nothing of the block is left under the operator's switches."""
         return bool(channel.skip_levels & self._levels) and self._on is empty_block
@@ -528,4 +562,4 @@ class SkippedBlock:
     def __call__(self, channel: Channel) -> None:
         """Run the step that the switches choose; a block that is left out is none of the path."""
         channel.off_path = self.is_left_out(channel)
-        (self._on if channel.skip_levels & self._levels else self._off)(channel)
+        self.chosen(channel)(channel)

@@ -67,7 +67,7 @@ def parse_statement(reader: Reader, keyword: str, program: StatementProgram, ind
 def parse_assignment(reader: Reader, _program: StatementProgram, _index: int) -> Step:
     """`#n = expression`, `#[expression] = …`, `#3000 = n (TEXT)`."""
     if reader.peek() == "[":
-        target: Evaluate | int = reader.evaluator(reader.bracket())
+        target: Lifting | int = reader.lifting(reader.bracket())
         digits_at = -1
     else:
         digits = reader.match(_INTEGER)
@@ -79,9 +79,8 @@ def parse_assignment(reader: Reader, _program: StatementProgram, _index: int) ->
     begin = reader.pos
     value = reader.sum()
     text = reader.comment_behind(begin)
-    if callable(target):
-        index_of, written = target, reader.evaluator(value)
-        return lambda channel: channel.memory.write_indirect(index_of(channel), written(channel), text)
+    if not isinstance(target, int):
+        return NumberedAssignment(target, reader.lifting(value), reader, text)
     return _assign(target, digits_at, value, reader, text)
 
 
@@ -133,6 +132,29 @@ class Assignment:
     def __call__(self, channel: Channel) -> None:
         """Run the statement."""
         self._function(channel.memory)
+
+
+class NumberedAssignment:
+    """`#[expression] = expression`: a step.
+
+    Args:
+        number: Code of the variable's number.
+        value: Code of its value.
+        reader: What has read them.
+        text: The comment behind it.
+    """
+
+    __slots__ = ("_number_of", "_text", "_value_of", "number", "value")
+
+    def __init__(self, number: Lifting, value: Lifting, reader: Reader, text: str) -> None:
+        self.number, self.value = number, value
+        self._number_of, self._value_of = reader.compiled(number), reader.compiled(value)
+        self._text = text
+
+    def __call__(self, channel: Channel) -> None:
+        """Run the statement."""
+        memory = channel.memory
+        memory.write_indirect(self._number_of(memory), self._value_of(memory), self._text)
 
 
 class ConditionalJump:
@@ -225,6 +247,22 @@ class Jump:
     def __call__(self, channel: Channel) -> None:
         """Run the statement."""
         channel.level.index = self.target
+
+
+def target_of(step: object) -> int:
+    """The step to which `GOTO n` or `IF [c] GOTO n` leads; below zero where there is none."""
+    jump = step.jump if isinstance(step, ConditionalJump) else step
+    if not isinstance(jump, Jump):
+        return -1
+    try:
+        return jump.target
+    except AlarmError:
+        return -1  # who runs it raises it
+
+
+def leads_back(step: object, index: int) -> bool:
+    """Whether a step is a jump that leads to a step or in front of it."""
+    return 0 <= target_of(step) <= index
 
 
 def parse_if(reader: Reader, program: StatementProgram, index: int) -> Step:

@@ -31,6 +31,11 @@ def read(text: str) -> tuple[int, int, float]:
     ("text", "behind", "token", "value"),
     [
         ("1.25]", 4, Token.NUMBER, 1.25),
+        ("#[1]", 1, Token.NUMBERED, 0.0),
+        ("ATAN[", 4, Token.ATAN, 0.0),
+        ("MOD7", 3, Token.MOD, 0.0),
+        ("XOR#1", 3, Token.XOR, 0.0),
+        (",2", 1, Token.COMMA, 0.0),
         (".5*", 2, Token.NUMBER, 0.5),
         ("#101+", 4, Token.VARIABLE, 101.0),
         ("#1", 2, Token.VARIABLE, 1.0),
@@ -58,12 +63,12 @@ def test_tokens_are_read(text: str, behind: int, token: int, value: float) -> No
         "SI[",
         "SIN 5",
         "SQRT5",
-        "TAN[",
+        "LN[",
+        "MODE[",
         "#",
         "#1.5",
         "#12345",
         "# 1",
-        "#[1]",
         ".",
         "(A)",
         "GT1",
@@ -209,12 +214,11 @@ def test_blocks_with_formulas_are_scanned(line: str) -> None:
         "X[#5041+@]",
         "X#3 Y@.",
         "X[ROUND[@]]",
-        "X[#[1]+@]",
         "M[@]",
         "X[1/#7+@]",
         "X[SQRT[-@-1]]",
-        "X[TAN[@]]",
-        "X[#1MOD@]",
+        "X[LN[@+1]]",
+        "X[POW[#1,@]]",
     ],
 )
 def test_other_blocks_are_the_interpreters(line: str) -> None:
@@ -234,4 +238,54 @@ def test_variables_are_those_of_the_program_that_runs() -> None:
     body = "".join(f"X[#1+{i}.] Y#2\n" for i in range(30))
     text = f"{HEAD}G65 P2 A100. B5.\n{body}M30\nO0002\n{body}M99\n"
     assert scanned(text, "fanuc-m") >= 55
+    assert differences(text, "fanuc-m") == []
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "X[TAN[@+1]]", "X[TAN[180*@-360]]", "X[ASIN[@/100]]", "X[ASIN[-@/100]]", "X[ACOS[@/-100]]", "X[ATAN[@]/[-#1]]",
+        "X[ATAN[-@,#1]]", "X[ATAN[-@]]", "X[#1MOD[@+1]]", "X[-@ MOD 7]", "X[@ MOD -3]", "X[@.5 AND 12]", "X[@ OR 5]",
+        "X[-@ XOR 9.5]", "X#[7*1]", "X[#[1.4]+@]", "X[#[33]*#[99.5]]",
+    ],
+)  # fmt: skip
+def test_functions_and_operators_by_their_names(line: str) -> None:
+    text = shapes_of(line)
+    assert scanned(text, "fanuc-m") >= 50
+    assert differences(text, "fanuc-m") == []
+
+
+@pytest.mark.parametrize("signed", [0, 1])
+def test_the_range_of_arc_functions_is_that_of_the_parameter(signed: int) -> None:
+    text = shapes_of("X[ASIN[-@/100]+ATAN[-@]/[1]]")
+    assert differences(text, "fanuc-m", {"parameters": {"6004": signed}}) == []
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "#1=@", "N@ #2 = #1 + @.5 (A)", "#100=ATAN[#1]/[@+1]", "#500=-#100", "#3=#0", "#7=#[@MOD3+1]", "#33=@;",
+        "/#1=#1+@",
+    ],
+)  # fmt: skip
+def test_assignments_in_the_text_are_scanned(line: str) -> None:
+    text = shapes_of(f"{line}\nG1 X#1 Y[#2+#100]")
+    if "#0" not in line:
+        assert scanned(text, "fanuc-m") >= 110
+    assert differences(text, "fanuc-m") == []
+
+
+@pytest.mark.parametrize(
+    "line", ["#3000=0", "#1=#5041", "#1=1#2=2", "#1=1;#2=@", "#1=1 X2", "#[1]=@", "#1", "#1 2=@"]
+)
+def test_other_statements_are_the_interpreters(line: str) -> None:
+    assert differences(shapes_of(f"{line}\nX@"), "fanuc-m") == []
+
+
+@pytest.mark.parametrize(
+    "line", ["G2 R[#1+@+50] X[@*2] Y0 F[@+10]", "G2 R[@+60] X[@*2] Y0 F@1.", "G3 X[@*2] R#33 F7@."]
+)
+def test_a_radius_from_a_formula_is_a_word_like_others(line: str) -> None:
+    text = shapes_of(line)
+    assert scanned(text, "fanuc-m") >= 50
     assert differences(text, "fanuc-m") == []

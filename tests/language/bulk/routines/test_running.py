@@ -21,11 +21,28 @@ VALUES = st.sampled_from(
     (
         "#1", "#2", "#3", "#100", "#500", "#7", "1", "2.5", "0", "#33", "[#1+#100]", "[#2*3-#7]", "[#1/2.]", "[#1/#7]",
         "SIN[#1]", "-#2", "#0", "[#3]", "#5001", "ROUND[#1]", "ABS[#2]", "FIX[#100]", "[1.+#4]", "[#150]", "-[#7*#2]",
-        "#[#7+1]", "1E5", "[#1MOD2]",
+        "#[#7+1]", "1E5", "[#1MOD2]", "#[#1]", "[#[100]*2]", "ATAN[#1]/[#2]", "ASIN[#2]", "[#100AND12]",
+        "[#1OR#2]", "TAN[#100]",
     )
 )  # fmt: skip
 TARGETS = st.sampled_from(
-    ("#1", "#2", "#3", "#4", "#7", "#100", "#101", "#500", "#33", "#0", "#5001", "#[5]", "#1000")
+    (
+        "#1",
+        "#2",
+        "#3",
+        "#4",
+        "#7",
+        "#100",
+        "#101",
+        "#500",
+        "#33",
+        "#0",
+        "#5001",
+        "#[5]",
+        "#[#1+2]",
+        "#[#7]",
+        "#1000",
+    )
 )
 COMPARISONS = st.sampled_from(("EQ", "NE", "GT", "GE", "LT", "LE"))
 
@@ -211,3 +228,41 @@ def test_the_shape_of_a_finishing_cycle_calls_nothing() -> None:
     text = f"O1\nG98 G1 F100.\nX50. Z5.\nM98P2\nM98P2\nG70 P5 Q6\nM30\n{shape}M30\nO2\nW-1.\nM99\n"
     assert run(text, "fanuc-0i-tf").alarms
     assert differences(text, "fanuc-0i-tf") == []
+
+
+def test_a_program_that_a_called_program_calls_is_known_from_its_second_call_on() -> None:
+    calls = "M98P2\n" * 60
+    text = f"{HEAD}{calls}M30\nO2\nX1.\nM98P3\nX2.\nG65P4A1.\nM99\nO3\nY1.\nY2.\nM99\nO4\nX[#1+#2]\nM99\n"
+    assert scanned(text, "fanuc-m") >= 60 * 9 - 60
+    assert differences(text, "fanuc-m") == []
+
+
+GOTO_LOOPS = {
+    "while": "N10 IF[#7GE400]GOTO20\nX[#7*0.5]Y#1\n#7=#7+1\nGOTO10\nN20 Y5.\n",
+    "until": "N10 X[#7*0.5]Y#1\n#7=#7+1\nIF[#7LT400]GOTO10\n",
+    "around a block that is the interpreter's": "N10 X#7\nG4X0.1\n#7=#7+1\nIF[#7LT400]GOTO10\n",
+    "within each other": "N10 #3=0\nN20 X#3 Y#7\n#3=#3+1\nIF[#3LT20]GOTO20\n#7=#7+1\nIF[#7LT30]GOTO10\n",
+    "around another": "N10 #3=0\nWHILE[#3LT9]DO1\nX#3 Y#7\n#3=#3+1\nEND1\n#7=#7+1\nIF[#7LT60]GOTO10\n",
+    "out of another": "N10 #3=0\nWHILE[#3LT9]DO1\n#3=#3+1\nIF[#3EQ#7]GOTO30\nX#3\nEND1\nN30 #7=#7+1\n"
+    "IF[#7LT60]GOTO10\n",
+    "with a call": "N10 M98P2\n#7=#7+1\nIF[#7LT200]GOTO10\n",
+    "by a number": "WHILE[#7LT400]DO1\n#[100+#7MOD9]=#7*2\nX#[100+#7MOD9]\n#7=#7+1\nEND1\n",
+    "by a vacant number": "WHILE[#7LT400]DO1\n#[100+#7MOD9]=#33\nX[#[100+#7MOD9]+#7]\n#7=#7+1\nEND1\n",
+}
+
+
+@pytest.mark.parametrize("loop", GOTO_LOOPS.values(), ids=GOTO_LOOPS)
+@pytest.mark.parametrize("filled", ["", "Z1.\n" * 300])
+def test_what_comes_round_by_jumps_is_run_by_the_scanner(loop: str, filled: str) -> None:
+    text = f"{HEAD}{loop}{filled}M30\nO2\nX1.\nX2.\nM99\n"
+    bulk = Bulk(fewest_lines=100, scan=PLAIN.scan)
+    assert scanned(text, "fanuc-m", bulk=bulk) >= (1 if "G4" in loop else 300 + len(filled) // 4)
+    assert differences(text, "fanuc-m", bulk=bulk) == []
+    assert differences(text, "fanuc-m", bulk=bulk, block_limit=777) == []
+
+
+def test_blocks_of_routines_that_are_marked_for_block_skip() -> None:
+    text = HEAD + "M98P2\n" * 60 + "M30\nO2\n/X1.\nX2.\n/2 Y#1\n/#1=#1+1\nM99\n"
+    for on in (False, True, [2]):
+        assert differences(text, "fanuc-m", {"switches": {"block_skip": on}}) == []
+    assert scanned(text, "fanuc-m") >= 300

@@ -26,6 +26,7 @@ from polycnc.language.bulk.layout import (
     FIRST_FORMULA,
     FIRST_TOKEN,
     FORMS,
+    PLAIN_MARK,
     Token,
 )
 from polycnc.language.expressions import nodes
@@ -136,8 +137,16 @@ class SinumerikPlainBlocks:
         """MD21000, mm."""
         return float(channel.memory.data.number("$MC_CIRCLE_ERROR_CONST"))
 
+    def skipped(self, channel: SinumerikChannel) -> int:
+        """As `Control.skipped`; a mark without a level is one of level 0."""
+        on = channel.setup.switches.block_skip_mask(plain=0)
+        return on | (on & 1) << PLAIN_MARK
+
     def drilled(self, _channel: SinumerikChannel) -> None:
         """Cycles are the interpreter's."""
+
+    def stood(self, _channel: SinumerikChannel, _times: int, _seconds: float) -> None:
+        """There are no holes."""
 
     def moved(self, channel: SinumerikChannel, last: LastMoves) -> None:
         """Where the last move came from, for CT."""
@@ -150,11 +159,11 @@ class SinumerikPlainBlocks:
             sense = 1.0 if kind in CCW_KINDS else -1.0
             move.start, move.arc = last.came_from, ArcOfMove((x, y, z), (i, j, k), sense)
 
-    def recipe(self, channel: SinumerikChannel, keys: Sequence[int], _line: str) -> Recipe | None:
+    def recipe(self, channel: SinumerikChannel, keys: Sequence[int], line: str) -> Recipe | None:
         """What the plan of a shape does, if all of it can be told."""
         code = channel.level.code.whole
         try:
-            emitter = code.compiled(channel.level.index, channel).emitter
+            emitter = code.unmarked(channel.level.index, channel, line).emitter
             if emitter.is_empty:
                 return None if keys else Recipe((channel.mode, code))
             if ASSIGNED in keys:

@@ -19,7 +19,7 @@ with loaded_when_called():
 
 if TYPE_CHECKING:
     from polycnc.control.word_address.block.codes import Step
-    from polycnc.control.word_address.block.plan import Builder
+    from polycnc.control.word_address.block.plan import Builder, Plan
     from polycnc.control.word_address.block.words import Words
     from polycnc.control.word_address.family import WordAddressChannel
 
@@ -67,7 +67,7 @@ def plan_tool(builder: Builder) -> Step:
         channel.memory.tool.next = int(values[slot])
         channel.event(ToolSelection(_number(values[slot])))
 
-    return select
+    return declare(select, Note(slot, lowest=0.0))
 
 
 def plan_second_auxiliary(builder: Builder) -> Step:
@@ -114,6 +114,15 @@ def spindle_stop(channel: WordAddressChannel, _words: Words) -> None:
     """M05."""
     channel.memory.spindle.direction = 0
     channel.context_changed()
+
+
+def notes(_plan: Plan) -> Note:
+    """What a handler does that only changes the context, or nothing but outputs of the machine."""
+    return Note()
+
+
+for _handler in (spindle_clockwise, spindle_counter_clockwise, spindle_stop):
+    declare(_handler, notes)
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,9 @@ from polycnc.control.machine_words import (
     refusal,
     refuse,
 )
+from polycnc.control.word_address.auxiliary.functions import notes
 from polycnc.control.word_address.block.rules import Rule
+from polycnc.deferred.functions import Deferred
 from polycnc.deferred.records import replace
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.language.bulk import Note, declare, declared
@@ -45,6 +47,9 @@ def guarded(row: MCode, plc: Plc) -> MCode:
         if handler is not None:
             handler(channel, block)
 
+    does_no_more = handler is None or (not isinstance(handler, Deferred) and declared(handler) is notes)
+    if does_no_more and not plc.may_refuse(word):
+        declare(act, notes)  # outputs change
     return replace(row, handler=act)
 
 

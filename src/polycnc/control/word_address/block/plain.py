@@ -7,12 +7,20 @@ that anything has wrapped or added (a modal macro, a corner, an interruption) sa
 from __future__ import annotations
 
 from polycnc.control.machine_words import may_refuse_moves
+from polycnc.control.word_address.auxiliary.functions import Clocks
 from polycnc.control.word_address.motion import arcs
 from polycnc.deferred.functions import loaded_when_called
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.planes import PLANES
 from polycnc.language.bulk import Arc, Conditions, Recipe, Spelling
-from polycnc.language.bulk.layout import FIRST_CODE, FIRST_FORMULA, FIRST_M_CODE, FORMS, NUMBERED
+from polycnc.language.bulk.layout import (
+    FIRST_CODE,
+    FIRST_FORMULA,
+    FIRST_M_CODE,
+    FORMS,
+    NUMBERED,
+    PLAIN_MARK,
+)
 from polycnc.messages import AlarmError
 
 with loaded_when_called():
@@ -65,7 +73,7 @@ class PlainBlocks:
 
     def generation(self, channel: WordAddressChannel) -> Hashable:
         """Changes when plans are forgotten, and with the conditions on which recipes rest."""
-        return channel.modes.generation, self._conditions.changes(channel)
+        return channel.modes.generation, channel.skip_levels, self._conditions.changes(channel)
 
     def state(self, channel: WordAddressChannel) -> Mode:
         """The modal state."""
@@ -96,6 +104,11 @@ class PlainBlocks:
         """As many as lie there."""
         return NUMBERED
 
+    def skipped(self, channel: Channel) -> int:
+        """As the interpreter asks; a mark without a level is one of the first."""
+        on = channel.skip_levels
+        return on | (on >> 1 & 1) << PLAIN_MARK
+
     def put_variables(self, _channel: Channel, _variables: Floats) -> None:
         """No formulas read any."""
 
@@ -114,6 +127,12 @@ class PlainBlocks:
 
     def turned(self, channel: WordAddressChannel, start: list[float], end: list[float]) -> None:
         """How the tool has turned is not remembered."""
+
+    def stood(self, channel: WordAddressChannel, times: int, seconds: float) -> None:
+        """The clocks of the macro variables count dwells, one by one as the interpreter does."""
+        clocks = Clocks.of(channel)
+        for _ in range(times):
+            clocks.seconds += seconds
 
     def moved(self, channel: WordAddressChannel, last: LastMoves) -> None:
         """Nothing is remembered of a move."""

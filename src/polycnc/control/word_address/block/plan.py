@@ -485,7 +485,16 @@ def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
         if handler is not None:
             handler(channel, values)
 
+    is_alone = spindle is None and not takes and not builder.drills
+    if is_alone and _only_notes(row.handler, plan):
+        note = Note(apart=builder.channel.machine.goes_beside(code))
+        return declare(act, Later(lambda: None if row.open and plan.rest else note))
     return act
+
+
+def _only_notes(handler: Handler | None, plan: Plan) -> bool:
+    """Whether the handler of an M code does nothing, or nothing with which the scanner works."""
+    return handler is None or (not isinstance(handler, Deferred) and isinstance(_told(handler, plan), Note))
 
 
 def _told(handler: Handler, plan: Plan) -> object:

@@ -3,7 +3,7 @@
 Holes of one cycle have the same strokes, and a stroke along the drilling axis at rapid or at feed is a row in which
 only that axis has another place. So the rows of a hole are worked out once, as columns, and the next hole brings only
 where it lies. Whatever else may happen in a hole (a dwell, the spindle, a halt, a limit, a stage that looks at moves)
-leaves it to the strokes, which are made one by one.
+leaves it to the strokes, which are made one by one; dwells of one length the scanner knows too (`holes_as_data`).
 """
 
 from __future__ import annotations
@@ -37,6 +37,7 @@ class Plunge(NamedTuple):
     Attributes:
         kinds: Kind of each row; `feeds` and `levels`, the place on the drilling axis, likewise.
         end: Place behind the last stroke.
+        dwell: Seconds of each dwell among them, whose rows have them in place of a feed; 0 where there is none.
         blocks: How many blocks the hole counts beside its own.
     """
 
@@ -45,6 +46,7 @@ class Plunge(NamedTuple):
     levels: array[float]
     end: float
     blocks: int
+    dwell: float = 0.0
 
 
 def plunges(channel: Channel, axis: int, cycle: Cycle, hole: Hole) -> bool:
@@ -56,7 +58,7 @@ def plunges(channel: Channel, axis: int, cycle: Cycle, hole: Hole) -> bool:
     level = position[axis]
     plunge = plunge_of(cycle, hole, level, channel.feed)
     chunk = channel.toolpath.chunk
-    if plunge is None or len(chunk) + len(plunge.levels) >= CHUNK_ROWS:
+    if plunge is None or plunge.dwell or len(chunk) + len(plunge.levels) >= CHUNK_ROWS:
         return False
     if channel.blocks + plunge.blocks >= channel.block_limit or not _is_free(channel, axis, plunge.levels):
         return False
@@ -91,7 +93,7 @@ def _is_free(channel: Channel, axis: int, levels: array[float]) -> bool:
 
 
 def plunge_of(cycle: Cycle, hole: Hole, level: float, feed: float) -> Plunge | None:
-    """The strokes of a cycle as columns; None where they are more than ways along the axis.
+    """The strokes of a cycle as columns; None where they are more than ways along the axis and dwells of one length.
 
     Args:
         cycle: What the tool does.
@@ -107,10 +109,17 @@ def plunge_of(cycle: Cycle, hole: Hole, level: float, feed: float) -> Plunge | N
 @lru_cache(maxsize=64)
 def _plunge(cycle: Cycle, hole: Hole, level: float, feed: float, _bits: bytes) -> Plunge | None:
     kinds, feeds, levels = array("B"), array("d"), array("d")
-    blocks = 0
+    blocks, dwell = 0, 0.0
     for number, stroke in enumerate(cycle(hole)):
         blocks += number % STROKES_OF_A_BLOCK == STROKES_OF_A_BLOCK - 1
-        if stroke.action is Action.DWELL and not stroke.value > 0.0:
+        if stroke.action is Action.DWELL:
+            if stroke.value > 0.0:
+                if dwell not in (0.0, stroke.value):
+                    return None
+                dwell = stroke.value
+                kinds.append(Kind.DWELL)
+                feeds.append(dwell)
+                levels.append(level)
             continue
         at_feed = stroke.action is Action.FEED
         own_feed = feed * stroke.factor if at_feed else nan
@@ -123,4 +132,4 @@ def _plunge(cycle: Cycle, hole: Hole, level: float, feed: float, _bits: bytes) -
             feeds.append(own_feed)
             levels.append(stroke.value)
         level = stroke.value
-    return Plunge(kinds, feeds, levels, level, blocks)
+    return Plunge(kinds, feeds, levels, level, blocks, dwell)

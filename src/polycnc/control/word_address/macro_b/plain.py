@@ -7,13 +7,16 @@ from math import nan
 
 from polycnc.control.word_address.block.plain import PlainBlocks
 from polycnc.deferred.typing import TYPE_CHECKING
+from polycnc.language.bulk import Recipe
+from polycnc.language.bulk.layout import ASSIGNED
 from polycnc.language.word_address.patterns import MEMORIES
 from polycnc.language.word_address.words import is_fixed_code
 from polycnc.messages import AlarmError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Hashable, Iterable, Sequence
 
+    from polycnc.channel.channel import Channel
     from polycnc.control.word_address.family import MacroChannel
     from polycnc.control.word_address.macro_b.routines import MacroRoutines
     from polycnc.kernels.layout import Floats
@@ -47,7 +50,23 @@ class MacroPlainBlocks(PlainBlocks):
         typed = {code[1] for key, code in coded if not key.endswith("#")}
         literals = [place for place in range(len(spots)) if place not in typed]
         calculated = [(slot, code) for slot, (key, code) in enumerate(coded) if key.endswith("#")]
-        return tuple(words.keys), formulas(calculated, {place: i for i, place in enumerate(literals)})
+        within_turn = not channel.memory.angle_range_signed
+        return tuple(words.keys), formulas(
+            calculated, {place: i for i, place in enumerate(literals)}, within_turn=within_turn
+        )
+
+    def generation(self, channel: Channel) -> Hashable:
+        """Also with the range of arc functions."""
+        return super().generation(channel), channel.memory.angle_range_signed
+
+    def recipe(self, channel: Channel, keys: Sequence[int], line: str) -> Recipe | None:
+        """Also of a statement that gives a variable a value."""
+        if ASSIGNED not in keys:
+            return super().recipe(channel, keys, line)
+        from polycnc.control.word_address.macro_b.routines import assignment_as_data
+
+        told = assignment_as_data(channel, line)
+        return None if told is None else Recipe(channel.mode, formulas=told)
 
     def put_variables(self, channel: MacroChannel, variables: Floats) -> None:
         """Local and common variables; system variables are the interpreter's."""

@@ -13,9 +13,16 @@ from polycnc.language.bulk.layout import Operation
 from polycnc.language.bulk.routines.kept import MOST_LINES
 from polycnc.language.bulk.routines.layout import NO_LOOP, LineKind
 from polycnc.language.bulk.routines.statements import BLOCK, NOTHING, REFUSED, Statement
-from polycnc.language.word_address.executable import empty_block
+from polycnc.language.word_address.executable import SkippedBlock, empty_block
 from polycnc.language.word_address.patterns import MEMORIES
-from polycnc.language.word_address.statements import Assignment, ConditionalJump, Jump, LoopBegin, LoopEnd
+from polycnc.language.word_address.statements import (
+    Assignment,
+    ConditionalJump,
+    Jump,
+    LoopBegin,
+    LoopEnd,
+    NumberedAssignment,
+)
 from polycnc.language.word_address.words import ExpressionBlock, WordBlock
 from polycnc.messages import AlarmError
 
@@ -25,7 +32,6 @@ if TYPE_CHECKING:
     from polycnc.channel.stack import Level
     from polycnc.control.word_address.family import MacroChannel
     from polycnc.language.word_address.executable import WordAddressProgram
-    from polycnc.language.word_address.macro_b import Lifting
     from polycnc.program import Program
 
 #: Longer numbers hold how often a program runs, or are a matter of a parameter.
@@ -59,10 +65,10 @@ class MacroRoutines:
 
     # ---- lines ---------------------------------------------------------------------------------------
 
-    def told(self, _channel: MacroChannel, code: WordAddressProgram, index: int, _is_met: bool) -> Statement:
+    def told(self, channel: MacroChannel, code: WordAddressProgram, index: int, _is_met: bool) -> Statement:
         """What a step of a program does."""
         try:
-            return _told(code, code.compile(code.lines[index], index))
+            return _Teller(channel, code).told(code.compile(code.lines[index], index))
         except (AlarmError, OtherError):
             return REFUSED  # the interpreter comes to the same line and raises it
 
@@ -119,75 +125,115 @@ class MacroRoutines:
         around = [
             (loop.start, loop.end) for loop in level.data.values() if loop.start < level.index <= loop.end
         ]
+        around += level.code.jumps_around(level.index)
         if not around:
             return 0, 0
         first, last = min(start for start, _ in around), max(end for _, end in around)
         return (first, last + 1 - first) if last - first < MOST_LINES else (0, 0)
 
 
-def _told(code: WordAddressProgram, step: object) -> Statement:
-    if isinstance(step, (WordBlock, ExpressionBlock)):
-        return BLOCK
-    if step is empty_block:
-        return NOTHING
-    if isinstance(step, Assignment):
-        postfix = _postfix(step.statement)
+def assignment_as_data(channel: MacroChannel, line: str) -> tuple[int, ...] | None:
+    """What a line of text that gives a variable a value calculates; None where the interpreter must."""
+    code: WordAddressProgram = channel.level.code
+    try:
+        step = code.compile(line, channel.level.index)
+        if not isinstance(step, Assignment):
+            return None
+        # The variable comes first in the text, and last among the numbers of the code.
+        last = len(step.statement.numbers) - 1
+        literals = {last: 0} | {i: i + 1 for i in range(last)}
+        postfix = Postfix(literals, within_turn=not channel.memory.angle_range_signed)
         postfix.assignment(step.statement.code)
-        return Statement(LineKind.STATEMENT, tuple(postfix.done), step.statement.numbers)
-    if isinstance(step, ConditionalJump):
-        return _told_condition(step)
-    if isinstance(step, Jump):
-        return Statement(LineKind.JUMP, target=step.target)
-    if isinstance(step, LoopBegin):
-        formulas, numbers = _condition(step)
-        return Statement(LineKind.LOOP, formulas, numbers, step.loop.end + 1, step.number)
-    if isinstance(step, LoopEnd):
-        return _told_end(code, step)
-    raise OtherError
+    except (AlarmError, OtherError):
+        return None
+    return tuple(postfix.done)
 
 
-def _told_condition(step: ConditionalJump) -> Statement:
-    """`IF … GOTO n`, `IF … THEN #1=…`."""
-    lifting, jump = step.condition.lifting, step.jump
-    if isinstance(jump, Jump):
-        postfix = _postfix(lifting)
-        postfix.condition(lifting.code)
-        return Statement(LineKind.JUMP, tuple(postfix.done), lifting.numbers, jump.target)
-    if not isinstance(jump, Assignment):
+class _Teller:
+    """Tells what steps of a program do."""
+
+    def __init__(self, channel: MacroChannel, code: WordAddressProgram) -> None:
+        self._channel = channel
+        self._code = code
+
+    def told(self, step: object) -> Statement:
+        """What a step does.
+
+        Raises:
+            OtherError: It is the interpreter's.
+        """
+        if isinstance(step, SkippedBlock):
+            return self.told(step.chosen(self._channel))
+        if isinstance(step, (WordBlock, ExpressionBlock)):
+            return BLOCK
+        if step is empty_block:
+            return NOTHING
+        if isinstance(step, Assignment):
+            numbers = step.statement.numbers
+            postfix = self.postfix(len(numbers), 0, numbers)
+            postfix.assignment(step.statement.code)
+            return Statement(LineKind.STATEMENT, tuple(postfix.done), numbers)
+        if isinstance(step, NumberedAssignment):
+            return self._told_numbered(step)
+        if isinstance(step, ConditionalJump):
+            return self._told_condition(step)
+        if isinstance(step, Jump):
+            return Statement(LineKind.JUMP, target=step.target)
+        if isinstance(step, LoopBegin):
+            formulas, numbers = self._condition(step)
+            return Statement(LineKind.LOOP, formulas, numbers, step.loop.end + 1, step.number)
+        if isinstance(step, LoopEnd):
+            return self._told_end(step)
         raise OtherError
-    numbers = (*lifting.numbers, *jump.statement.numbers)
-    postfix = Postfix({i: i for i in range(len(lifting.numbers))}, lifting.numbers)
-    postfix.condition(lifting.code)
-    behind = Postfix(
-        {i: i + len(lifting.numbers) for i in range(len(jump.statement.numbers))}, jump.statement.numbers
-    )
-    behind.assignment(jump.statement.code)
-    return Statement(LineKind.STATEMENT, (*postfix.done, Operation.UNLESS, 0, *behind.done), numbers)
 
+    def postfix(self, count: int, behind: int, numbers: Sequence[float]) -> Postfix:
+        """For code with so many numbers, which stand behind some others."""
+        within_turn = not self._channel.memory.angle_range_signed
+        return Postfix({i: i + behind for i in range(count)}, numbers, within_turn=within_turn)
 
-def _told_end(code: WordAddressProgram, end: LoopEnd) -> Statement:
-    """`END m`, by the DO that belongs to it."""
-    for index in range(end.index - 1, -1, -1):
-        begin = code.compile(code.lines[index], index)
-        if isinstance(begin, LoopBegin) and begin.number == end.number:
-            if begin.loop.end != end.index:
-                break
-            formulas, numbers = _condition(begin)
-            return Statement(LineKind.LOOP_END, formulas, numbers, index + 1, end.number)
-    raise OtherError
+    def _told_numbered(self, step: NumberedAssignment) -> Statement:
+        """`#[…]=…`."""
+        number, value = step.number, step.value
+        postfix = self.postfix(len(number.numbers), 0, number.numbers)
+        postfix.value(number.code)
+        behind = self.postfix(len(value.numbers), len(number.numbers), value.numbers)
+        behind.numbered_assignment(value.code)
+        return Statement(LineKind.STATEMENT, (*postfix.done, *behind.done), (*number.numbers, *value.numbers))
 
+    def _told_condition(self, step: ConditionalJump) -> Statement:
+        """`IF … GOTO n`, `IF … THEN #1=…`."""
+        lifting, jump = step.condition.lifting, step.jump
+        postfix = self.postfix(len(lifting.numbers), 0, lifting.numbers)
+        postfix.condition(lifting.code)
+        if isinstance(jump, Jump):
+            return Statement(LineKind.JUMP, tuple(postfix.done), lifting.numbers, jump.target)
+        if not isinstance(jump, Assignment):
+            raise OtherError
+        others = jump.statement.numbers
+        behind = self.postfix(len(others), len(lifting.numbers), others)
+        behind.assignment(jump.statement.code)
+        done = (*postfix.done, Operation.UNLESS, 0, *behind.done)
+        return Statement(LineKind.STATEMENT, done, (*lifting.numbers, *others))
 
-def _condition(begin: LoopBegin) -> tuple[tuple[int, ...], tuple[float, ...]]:
-    if begin.condition is None:
-        return (), ()
-    lifting = begin.condition.lifting
-    postfix = _postfix(lifting)
-    postfix.condition(lifting.code)
-    return tuple(postfix.done), lifting.numbers
+    def _told_end(self, end: LoopEnd) -> Statement:
+        """`END m`, by the DO that belongs to it."""
+        code = self._code
+        for index in range(end.index - 1, -1, -1):
+            begin = code.compile(code.lines[index], index)
+            if isinstance(begin, LoopBegin) and begin.number == end.number:
+                if begin.loop.end != end.index:
+                    break
+                formulas, numbers = self._condition(begin)
+                return Statement(LineKind.LOOP_END, formulas, numbers, index + 1, end.number)
+        raise OtherError
 
-
-def _postfix(lifting: Lifting) -> Postfix:
-    return Postfix({i: i for i in range(len(lifting.numbers))}, lifting.numbers)
+    def _condition(self, begin: LoopBegin) -> tuple[tuple[int, ...], tuple[float, ...]]:
+        if begin.condition is None:
+            return (), ()
+        lifting = begin.condition.lifting
+        postfix = self.postfix(len(lifting.numbers), 0, lifting.numbers)
+        postfix.condition(lifting.code)
+        return tuple(postfix.done), lifting.numbers
 
 
 def _value(number: float) -> float | None:

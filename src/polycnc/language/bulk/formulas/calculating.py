@@ -6,7 +6,7 @@ something, one that lies elsewhere) ends the scan in front of the block.
 
 from __future__ import annotations
 
-from math import acos, asin, atan2, copysign, cos, floor, nan, pi, sin, sqrt, tan
+from math import acos, asin, atan, atan2, copysign, cos, floor, nan, pi, sin, sqrt, tan
 
 from polycnc.kernels.layout import Ints32
 from polycnc.language.bulk.layout import CHANGES, MOST_WORDS, STACK, Operation, State
@@ -59,6 +59,13 @@ def carried_out(state: State, operation: int, argument: int, top: int) -> int:
         number = state.values[MOST_WORDS + argument]
         possible, _ = variable(state, number)
         possible = possible and change(state, int(number), stack[top])
+    elif operation == Operation.ASSIGN_NUMBERED:
+        top -= 2
+        number = half_away(stack[top])
+        possible = abs(stack[top]) <= LARGEST_WORD
+        if possible:
+            possible, _ = variable(state, number)
+        possible = possible and change(state, int(number), stack[top + 1])
     elif operation == Operation.PUT:
         top -= 1
         possible = abs(state.variables[argument]) <= LARGEST and change(state, argument, stack[top])
@@ -118,14 +125,22 @@ def operand(state: State, operation: int, argument: int) -> tuple[bool, float]:
 def variable(state: State, number: float) -> tuple[bool, float]:
     """Whether a variable lies here, and its value."""
     place = int(number)
-    if place >= state.scan.numbered:
+    if place < 0 or place >= state.scan.numbered:
         return False, 0.0
     value = state.variables[place]
     return not abs(value) > LARGEST, value
 
 
 def indexed(state: State, operation: int, argument: int, x: float) -> tuple[bool, float]:
-    """An element by its index, an index or a whole number, and whether it is one."""
+    """A variable by its number, an element by its index, an index or a whole number, and whether it is one."""
+    if operation <= Operation.NUMBERED_OR_VACANT:
+        if not abs(x) <= LARGEST_WORD:
+            return False, 0.0
+        found, value = variable(state, half_away(x))
+        vacant = value != value
+        if operation == Operation.NUMBERED_OR_ZERO and (vacant or value == 0.0):
+            value = 0.0
+        return found and not (vacant and operation == Operation.NUMBERED), value
     if operation == Operation.ELEMENT:
         value = state.variables[argument + int(x)]
         return abs(value) <= LARGEST, value
@@ -152,12 +167,18 @@ def applied_to_one(operation: int, x: float) -> tuple[bool, float]:
         if not abs(x) <= 1.0:
             return False, 0.0
         return True, (asin(x) if operation == Operation.ASIN else acos(x)) * DEGREES
+    if operation == Operation.ATAN:
+        return True, atan(x) * DEGREES
+    if operation == Operation.TURN:
+        return True, x if x >= 0.0 else x + 360.0
     if not abs(x) <= LARGEST_WHOLE:
         return False, 0.0
     if operation == Operation.SIN:
         return True, sine(x)
     if operation == Operation.COS:
         return True, cosine(x)
+    if operation == Operation.TANGENT:
+        return tangent(x)
     if operation == Operation.TAN:
         return x != 90.0 * float(floor(x / 90.0 + 0.5)), tan(x * RADIANS)
     return True, made_whole(operation, x)
@@ -171,11 +192,28 @@ def made_whole(operation: int, x: float) -> float:
         return float(floor(x + 0.5)) + 0.0
     if operation == Operation.CEIL:
         return 0.0 - float(floor(-x))
+    if operation == Operation.HALF_AWAY:
+        return half_away(x)
     if x == 0.0:
         return 0.0
     if operation == Operation.FIX:
         return copysign(float(floor(abs(x) + GUARD)), x)
     return copysign(float(-floor(GUARD - abs(x))), x)
+
+
+def half_away(x: float) -> float:
+    """As `language.word_address.functions.round_half_away`."""
+    return copysign(float(floor(abs(x) * (1.0 + 1e-12) + 0.5 + GUARD)), x) if x != 0.0 else 0.0
+
+
+def tangent(x: float) -> tuple[bool, float]:
+    """Tangent of degrees, exact at multiples of 90, and whether there is one."""
+    if x % 90.0 == 0.0:
+        c, s = cosine(x), sine(x)
+    else:
+        angle = (x % 360.0) * RADIANS
+        c, s = cos(angle), sin(angle)
+    return c != 0.0, s / c if c != 0.0 else 0.0
 
 
 def sine(x: float) -> float:
@@ -212,6 +250,8 @@ def applied(operation: int, a: float, b: float) -> tuple[bool, float]:
         value = a / b
     elif operation == Operation.ATAN2:
         value = atan2(a, b) * DEGREES
+    elif operation <= Operation.BITS_XOR and operation >= Operation.MODULO:
+        return combined(operation, a, b)
     elif operation == Operation.LESSER:
         value = min(a, b)
     elif operation == Operation.GREATER_ONE:
@@ -219,6 +259,24 @@ def applied(operation: int, a: float, b: float) -> tuple[bool, float]:
     else:
         return divided(operation, a, b)
     return abs(value) <= LARGEST, value
+
+
+def combined(operation: int, a: float, b: float) -> tuple[bool, float]:
+    """Remainder and bits of rounded numbers, as custom macro B has them, and whether there is a result."""
+    if not (abs(a) <= LARGEST_WHOLE and abs(b) <= LARGEST_WHOLE):
+        return False, 0.0
+    x, y = int(half_away(a)), int(half_away(b))
+    if operation == Operation.BITS_AND:
+        return True, float(x & y)
+    if operation == Operation.BITS_OR:
+        return True, float(x | y)
+    if operation == Operation.BITS_XOR:
+        return True, float(x ^ y)
+    if y == 0:
+        return False, 0.0
+    if x == 0:
+        return True, 0.0 if y > 0 else -0.0
+    return True, copysign(float(abs(x) % abs(y)), float(x))
 
 
 def divided(operation: int, a: float, b: float) -> tuple[bool, float]:

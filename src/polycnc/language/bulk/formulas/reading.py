@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from polycnc.kernels.layout import Ints32, Text
 from polycnc.language.bulk.layout import (
+    ASSIGNED,
     FIRST_TOKEN,
     KEY_COUNT,
     MOST_KEYS,
@@ -14,12 +15,9 @@ from polycnc.language.bulk.layout import (
 )
 from polycnc.language.bulk.numerals import BLANK, EXACT_DIGITS, NINE, POINT, TAB, ZERO, read_number
 
-LETTER_A, LETTER_B, LETTER_C, LETTER_F, LETTER_I, LETTER_N, LETTER_O, LETTER_P, LETTER_Q, LETTER_R = (
-    65, 66, 67, 70, 73, 78, 79, 80, 81, 82
-)  # fmt: skip
-LETTER_S, LETTER_T, LETTER_U, LETTER_X, LETTER_Z = 83, 84, 85, 88, 90
+LETTER_A, LETTER_R, LETTER_Z = 65, 82, 90
 HASH, STAR, PLUS, MINUS, SLASH, OPEN_BRACKET, CLOSE_BRACKET = 35, 42, 43, 45, 47, 91, 93
-OPEN_ROUND, CLOSE_ROUND = 40, 41
+OPEN_ROUND, CLOSE_ROUND, COMMA, EQUALS_SIGN, SEMICOLON, NEWLINE = 40, 41, 44, 61, 59, 10
 #: What `read_name` gives for other names.
 NO_TOKEN = -1
 #: Digits of a variable that is at hand, and of a whole number in an expression.
@@ -67,9 +65,8 @@ def read_formula(
         elif token == Token.VARIABLE or token == Token.NUMBER:
             state.values[MOST_WORDS + literals] = value
             literals += 1
-        if depth < 0 or (
-            not inside and token > Token.VARIABLE and token != Token.PLUS and token != Token.MINUS
-        ):
+        begins = token <= Token.VARIABLE or token in (Token.PLUS, Token.MINUS, Token.NUMBERED)
+        if depth < 0 or not (inside or begins):
             return -1, 0, 0, 0
         state.keys[keys] = FIRST_TOKEN + token
         keys += 1
@@ -84,13 +81,13 @@ def read_token(text: Text, place: int) -> tuple[int, int, float]:
     if ZERO <= char <= NINE or char == POINT:
         place, value, _ = read_number(text, place, EXACT_DIGITS)
         return place, Token.NUMBER, value
+    if char == HASH and text[place + 1] == OPEN_BRACKET:
+        return place + 1, Token.NUMBERED, 0.0
     if char == HASH:
         return read_variable(text, place + 1)
     if LETTER_A <= char <= LETTER_Z:
-        token = read_name(text, place)
-        if token == NO_TOKEN:
-            return -1, 0, 0.0
-        return place + (4 if token == Token.SQRT else 3), token, 0.0
+        token, letters = read_name(text, place)
+        return (-1 if token == NO_TOKEN else place + letters), token, 0.0
     if char == OPEN_BRACKET:
         return place + 1, Token.OPEN, 0.0
     if char == CLOSE_BRACKET:
@@ -103,7 +100,41 @@ def read_token(text: Text, place: int) -> tuple[int, int, float]:
         return place + 1, Token.TIMES, 0.0
     if char == SLASH:
         return place + 1, Token.DIVIDED, 0.0
+    if char == COMMA:
+        return place + 1, Token.COMMA, 0.0
     return -1, 0, 0.0
+
+
+def read_assignment(
+    text: Text, nexts: Ints32, state: State, place: int, node: int
+) -> tuple[int, int, int, int]:
+    """Follow `#1=…` down the shape tree, to the end of its block; as `read_formula`."""
+    place, _, value = read_variable(text, place + 1)
+    state.values[MOST_WORDS] = value
+    while place >= 0 and text[place] in (BLANK, TAB):
+        place += 1
+    if place < 0 or text[place] != EQUALS_SIGN:
+        return -1, 0, 0, 0
+    place += 1
+    state.keys[0] = ASSIGNED
+    node = nexts[node * KEY_COUNT + ASSIGNED]
+    keys = literals = 1
+    while True:
+        char = int(text[place])
+        if char in (BLANK, TAB):
+            place += 1
+            continue
+        if char in (NEWLINE, SEMICOLON, OPEN_ROUND):
+            return place, node, keys, literals
+        place, token, value = read_token(text, place)
+        if place < 0 or keys == MOST_KEYS or literals == MOST_LITERALS:
+            return -1, 0, 0, 0
+        if token == Token.VARIABLE or token == Token.NUMBER:
+            state.values[MOST_WORDS + literals] = value
+            literals += 1
+        state.keys[keys] = FIRST_TOKEN + token
+        keys += 1
+        node = nexts[node * KEY_COUNT + FIRST_TOKEN + token]
 
 
 def read_variable(text: Text, place: int) -> tuple[int, int, float]:
@@ -118,26 +149,47 @@ def read_variable(text: Text, place: int) -> tuple[int, int, float]:
     return place, Token.VARIABLE, float(number)
 
 
-def read_name(text: Text, place: int) -> int:
-    """The function whose name stands here in full; its bracket must follow."""
-    one = int(text[place])
-    two = int(text[place + 1]) if one >= LETTER_A else 0
-    three = int(text[place + 2]) if two >= LETTER_A else 0
-    four = int(text[place + 3]) if three >= LETTER_A else 0
+def _spelt(name: str) -> int:
+    """A name as one number, letter by letter."""
+    number = 0
+    for letter in name:
+        number = number * 32 + ord(letter) - LETTER_A + 1
+    return number
+
+
+#: Names in custom macro B: how each is spelt, and its token; functions, behind which a bracket stands, and operators.
+MACRO_FUNCTIONS: tuple[tuple[int, int], ...] = tuple(
+    (_spelt(name), getattr(Token, name))
+    for name in ("SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "ABS", "SQRT", "ROUND", "FIX", "FUP")
+)
+MACRO_OPERATORS: tuple[tuple[int, int], ...] = tuple(
+    (_spelt(name), getattr(Token, name)) for name in ("MOD", "AND", "OR", "XOR")
+)
+#: Letters of the longest of them.
+MOST_LETTERS = 5
+
+
+def read_name(text: Text, place: int) -> tuple[int, int]:
+    """The function or operator whose name stands here in full, and how many letters it has."""
+    letters, spelt = read_letters(text, place)
     token = NO_TOKEN
-    if one == LETTER_S and two == LETTER_I and three == LETTER_N:
-        token = Token.SIN
-    elif one == LETTER_C and two == LETTER_O and three == LETTER_S:
-        token = Token.COS
-    elif one == LETTER_A and two == LETTER_B and three == LETTER_S:
-        token = Token.ABS
-    elif one == LETTER_F and two == LETTER_I and three == LETTER_X:
-        token = Token.FIX
-    elif one == LETTER_F and two == LETTER_U and three == LETTER_P:
-        token = Token.FUP
-    elif one == LETTER_S and two == LETTER_Q and three == LETTER_R and four == LETTER_T:
-        return Token.SQRT if text[place + 4] == OPEN_BRACKET else NO_TOKEN
-    return token if four == OPEN_BRACKET else NO_TOKEN
+    if text[place + letters] == OPEN_BRACKET:
+        for name, function in MACRO_FUNCTIONS:
+            if spelt == name:
+                token = function
+    for name, operator in MACRO_OPERATORS:
+        if spelt == name:
+            token = operator
+    return token, letters
+
+
+def read_letters(text: Text, place: int) -> tuple[int, int]:
+    """How many letters stand here, one more than the longest name at the most, and how they are spelt."""
+    letters, spelt = 0, 0
+    while LETTER_A <= text[place + letters] <= LETTER_Z and letters <= MOST_LETTERS:
+        spelt = spelt * 32 + int(text[place + letters]) - LETTER_A + 1
+        letters += 1
+    return letters, spelt
 
 
 # ---- expressions -----------------------------------------------------------------------------------------------------
@@ -221,29 +273,16 @@ def read_expression_token(text: Text, place: int) -> tuple[int, int, float]:
     return -1, 0, 0.0
 
 
-def _spelt(name: str) -> int:
-    """A name as one number, letter by letter."""
-    number = 0
-    for letter in name:
-        number = number * 32 + ord(letter) - LETTER_A + 1
-    return number
-
-
 #: The functions of one argument in brackets: how each is spelt, and its token.
 FUNCTIONS: tuple[tuple[int, int], ...] = tuple(
     (_spelt(name), getattr(Token, name))
     for name in ("SIN", "COS", "TAN", "ABS", "SQRT", "POT", "ROUND", "TRUNC")
 )
-#: Letters of the longest of them.
-MOST_LETTERS = 5
 
 
 def read_function(text: Text, place: int) -> tuple[int, int]:
     """The function whose name stands here in full, with its bracket behind it, and how many letters it has."""
-    letters, spelt = 0, 0
-    while LETTER_A <= text[place + letters] <= LETTER_Z and letters <= MOST_LETTERS:
-        spelt = spelt * 32 + int(text[place + letters]) - LETTER_A + 1
-        letters += 1
+    letters, spelt = read_letters(text, place)
     token = NO_TOKEN
     for name, function in FUNCTIONS:
         if spelt == name:

@@ -161,9 +161,7 @@ class Routines:
             return
         keys = list(state.keys[: state.scan.keys])
         tokens = [key - layout.FIRST_TOKEN for key in keys]
-        words = sum(
-            key < layout.FIRST_CODE or layout.FIRST_FORMULA <= key < layout.FIRST_TOKEN for key in keys
-        )
+        words = sum(key < layout.FIRST_CODE or layout.FIRST_FORMULA <= key < layout.ASSIGNED for key in keys)
         literals = sum(
             token in (layout.Token.VARIABLE, layout.Token.NUMBER, layout.Token.DECIMAL) for token in tokens
         )
