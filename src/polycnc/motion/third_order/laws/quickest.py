@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from array import array
+from functools import cache
 
 from polycnc.deferred.named_tuples import NamedTuple
-from polycnc.deferred.typing import TYPE_CHECKING
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar
 from polycnc.motion.third_order.laws.compiled import kernels
 from polycnc.motion.third_order.laws.courses import (
     BATCH,
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 
 #: Room for nodes at first, by the places of the estimate and besides.
 PER_PLACE, BESIDES = 1, 256
+#: No array of a law is larger, bytes.
+LARGEST = 1 << 23
 #: Where a law begins by itself.
 NONE = Known(array("d"), array("d"), array("d"), array("d"))
 
@@ -50,10 +53,20 @@ class Found(NamedTuple):
 
 
 class Room:
-    """Arrays in which laws are found, one after another: new memory costs as much as several steps of a law."""
+    """Arrays in which laws are found, one after another: new memory costs as much as several steps of a law.
+
+    What one has leaves to the next one when it is no longer used: the runs of a program are many, and some are short.
+    """
+
+    _left: ClassVar[list[dict[str, array[float]]]] = []
 
     def __init__(self) -> None:
-        self._arrays: dict[str, array[float]] = {}
+        _keep_memory()
+        self._arrays = self._left.pop() if self._left else {}
+
+    def __del__(self) -> None:
+        if not self._left:
+            self._left.append(self._arrays)
 
     def numbers(self, use: str, count: int) -> array[float]:
         """At least so many numbers for a use; they are what the law before has left."""
@@ -118,6 +131,17 @@ def quickest(
 def _rests_at_once(speed: float, pull: float, way: float) -> bool:
     """Whether a motion is at rest before the middle of the way to the next node: there is no law between the two."""
     return speed > 0.0 and speed * speed + 0.5 * pull * way <= 0.0
+
+
+@cache
+def _keep_memory() -> None:
+    """Have the C library keep memory that is freed, for what is asked for next.
+
+    That of Linux gets large blocks from the system and gives them back, page by page, which takes as long as all else
+    that is done for a law in Python. It does so with blocks larger than the largest one so far that was given back
+    (`man mallopt`, M_MMAP_THRESHOLD): here one that nobody has written to. Other systems do not mind.
+    """
+    bytes(LARGEST)
 
 
 def numbers(count: int) -> array[float]:
