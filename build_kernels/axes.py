@@ -64,6 +64,11 @@ def counts_of_axes(kernel: Callable[..., object]) -> list[int]:
     return found
 
 
+def taken_by(kernel: Callable[..., object]) -> list[str]:
+    """What the machine code of a kernel takes, in the words of LLVM."""
+    return [type_ for argument in flat(arguments(kernel)) for type_ in _TAKES[argument.kind]]
+
+
 def _named(names: Iterable[str], taken: Sequence[Argument]) -> Iterator[tuple[str, Argument]]:
     """Arguments with their names, those in groups too."""
     for name, argument in zip(names, taken, strict=True):
@@ -76,7 +81,7 @@ def _named(names: Iterable[str], taken: Sequence[Argument]) -> Iterator[tuple[st
 
 def _choice(kernel: Callable[..., object], counts: Sequence[int]) -> str:
     """A function, in the words of LLVM, that calls the copy of a kernel for the usual axes where there are so many."""
-    types = [type_ for argument in flat(arguments(kernel)) for type_ in _TAKES[argument.kind]]
+    types = taken_by(kernel)
     given = [f"{type_} %a{k}" for k, type_ in enumerate(types)]
     usual = [f"i64 {_USUAL_AXES}" if k in counts else each for k, each in enumerate(given)]
     asked = "".join(

@@ -1,8 +1,8 @@
 """Object code of kernels, made by Numba.
 
-Every kernel that Python calls gets an entry of its own name that takes addresses and lengths: arrays are views of the
-caller's memory, records are pointers. The code needs neither Numba nor Python when it runs, only a few functions of the
-C library's mathematics, which are those that Python calls.
+Every kernel that Python calls gets an entry of its own name that takes a block of addresses and lengths: arrays are
+views of the caller's memory, records are pointers. The code needs neither Numba nor Python when it runs, only a few
+functions of the C library's mathematics, which are those that Python calls.
 """
 
 from __future__ import annotations
@@ -16,7 +16,9 @@ from typing import TYPE_CHECKING, cast, get_type_hints
 
 from build_kernels.arguments import Argument, Kind, arguments, flat, signature
 from build_kernels.axes import give_usual_axes
+from build_kernels.blocks import take_blocks
 from build_kernels.sources import contents
+from build_kernels.vectors import give_wide_vectors, known_by
 from polycnc.deferred.named_tuples import written
 from polycnc.kernels.description import TEXT, description
 from polycnc.kernels.layout import Places
@@ -82,7 +84,9 @@ def object_code(library: Library, about: bytes) -> bytes:
         whole.link_in(part)
     if not library.inline:
         give_usual_axes(whole, [library.plain(name) for name in library.names])
-    return _optimised(whole, {library.symbol, *library.names})
+    give_wide_vectors(whole, library, _machine().triple)
+    take_blocks(whole, [library.plain(name) for name in library.names])
+    return _optimised(whole, {library.symbol, known_by(library), *library.names})
 
 
 @contextmanager
@@ -135,6 +139,7 @@ def _machine() -> TargetMachine:
 
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
+    binding.initialize_native_asmparser()  # type: ignore[attr-defined]  # for what asks the processor
     target = binding.Target.from_triple(_platform(binding.get_default_triple()))
     return target.create_target_machine(cpu=_processor(), opt=3, reloc="pic", codemodel="default")
 

@@ -12,7 +12,8 @@ from _ctypes import FUNCFLAG_CDECL, CFuncPtr, Structure, _SimpleCData, addressof
 from polycnc.deferred.typing import Any
 
 __all__ = [
-    "Byte", "Integer", "Number", "Pointer", "SharedObject", "Structure", "Text", "addressof", "contents", "put",
+    "Byte", "Integer", "Number", "Pointer", "SharedObject", "Structure", "Text", "addressof", "contents", "place_of",
+    "put",
 ]  # fmt: skip
 
 
@@ -98,6 +99,12 @@ def contents(place: int, size: int) -> bytes:
     """So many bytes at an address."""
     there: Any = (Byte * size).from_address(place)
     return there.raw  # type: ignore[no-any-return]
+
+
+def place_of(text: bytes) -> int:
+    """The address of bytes, good as long as somebody has them."""
+    place: int = Integer.from_buffer(Text(text)).value
+    return place
 
 
 def put(thing: Structure, found: bytes) -> None:

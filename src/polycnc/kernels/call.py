@@ -1,13 +1,18 @@
-"""How Python calls the machine code of a kernel: with addresses in place of its arrays and records."""
+"""How Python calls the machine code of a kernel: with addresses in place of its arrays and records.
+
+All that it takes is handed over as one block of numbers of eight bytes each. To hand over one by one what laws of third
+order take, `ctypes` needs as long as their machine code for five rows of a contour.
+"""
 
 from __future__ import annotations
 
 from array import array
 from itertools import accumulate, chain
 from operator import attrgetter
+from struct import Struct
 
 from polycnc.deferred.typing import TYPE_CHECKING, Any
-from polycnc.kernels.c_types import Integer, Number, Pointer, addressof
+from polycnc.kernels.c_types import Pointer, addressof, place_of
 from polycnc.kernels.description import INTEGER, NUMBER, RECORD, TEXT
 
 if TYPE_CHECKING:
@@ -16,11 +21,11 @@ if TYPE_CHECKING:
 #: So many calls hand their arguments on one by one before that is written out for a kernel: it makes each faster by a
 #: third, and takes as long as some hundred calls.
 _FEW = 512
-_TYPES = {TEXT: (Pointer, Integer), RECORD: (Pointer,), INTEGER: (Integer,), NUMBER: (Number,)}
-_ARRAY = Pointer, Integer
+#: What stands in the block for each, as `struct` names it: an array is its address and its length.
+_FORMS, _ARRAY = {TEXT: "Qq", RECORD: "Q", INTEGER: "q", NUMBER: "d"}, "Qq"
 _BRACKETS = str.maketrans("", "", "()")
 #: Expressions for arguments that are no arrays, by their signs.
-_HANDED = {TEXT: "{0}, len({0})", RECORD: "addressof({0})", INTEGER: "{0}", NUMBER: "{0}"}
+_HANDED = {TEXT: "place_of({0}), len({0})", RECORD: "addressof({0})", INTEGER: "{0}", NUMBER: "{0}"}
 _typecode = attrgetter("typecode")
 
 
@@ -32,7 +37,8 @@ def caller(entry: Any, signature: str) -> Callable[..., Any]:
         signature: What the kernel takes (`description`).
     """
     codes = signature.translate(_BRACKETS)
-    entry.argtypes = [each for code in codes for each in _TYPES.get(code, _ARRAY)]
+    entry.argtypes = [Pointer]
+    pack = Struct("".join(_FORMS.get(code, _ARRAY) for code in codes)).pack
     hand = _hander(codes)
     left = _FEW
     written: Callable[..., Any] | None = None
@@ -41,9 +47,9 @@ def caller(entry: Any, signature: str) -> Callable[..., Any]:
         nonlocal left, written
         if left:
             left -= 1
-            return entry(*hand(given))
+            return entry(pack(*hand(given)))
         if written is None:
-            written = _written(entry, signature)
+            written = _written(entry, pack, signature)
         return written(*given)
 
     return call
@@ -51,10 +57,10 @@ def caller(entry: Any, signature: str) -> Callable[..., Any]:
 
 def _hander(codes: str) -> Callable[[Iterable[Any]], list[Any]]:
     """What makes of the arguments of a kernel those of its machine code."""
-    wanted = "".join(code for code in codes if code not in _TYPES)
-    arrays = [i for i, code in enumerate(codes) if code not in _TYPES]
-    others = [(i, code) for i, code in enumerate(codes) if code in _TYPES]
-    places = [0, *accumulate(len(_TYPES.get(code, _ARRAY)) for code in codes)]
+    wanted = "".join(code for code in codes if code not in _FORMS)
+    arrays = [i for i, code in enumerate(codes) if code not in _FORMS]
+    others = [(i, code) for i, code in enumerate(codes) if code in _FORMS]
+    places = [0, *accumulate(len(_FORMS.get(code, _ARRAY)) for code in codes)]
 
     def hand(given: Iterable[Any]) -> list[Any]:
         flat: list[Any] = []
@@ -77,13 +83,13 @@ def _handed(value: Any, code: str) -> Sequence[Any]:
     """An argument that is no array."""
     if code == RECORD:
         return (addressof(value),)
-    return (value, len(value)) if code == TEXT else (value,)
+    return (place_of(value), len(value)) if code == TEXT else (value,)
 
 
-def _written(entry: Any, signature: str) -> Callable[..., Any]:
+def _written(entry: Any, pack: Callable[..., bytes], signature: str) -> Callable[..., Any]:
     """The same, written out for what the kernel takes."""
     names, codes = _names(signature), signature.translate(_BRACKETS)
-    arrays = [(name, code) for name, code in zip(names, codes, strict=True) if code not in _TYPES]
+    arrays = [(name, code) for name, code in zip(names, codes, strict=True) if code not in _FORMS]
     wanted = "".join(code for _, code in arrays)
     given = (
         _HANDED.get(code, "*{0}.buffer_info()").format(name) for name, code in zip(names, codes, strict=True)
@@ -93,11 +99,11 @@ def _written(entry: Any, signature: str) -> Callable[..., Any]:
         f"def call({', '.join(f'a{i}' for i in range(count))}):\n"
         f"    found = ({''.join(f'{name}.typecode, ' for name, _ in arrays)})\n"
         f"    if found != codes: refuse(wanted, ({''.join(f'{name}, ' for name, _ in arrays)}))\n"
-        f"    return entry({', '.join(given)})\n"
+        f"    return entry(pack({', '.join(given)}))\n"
     )
     scope = {
-        "entry": entry, "addressof": addressof, "codes": tuple(wanted), "wanted": wanted,
-        "refuse": _refuse,
+        "entry": entry, "pack": pack, "addressof": addressof, "place_of": place_of, "codes": tuple(wanted),
+        "wanted": wanted, "refuse": _refuse,
     }  # fmt: skip
     exec(source, scope)
     call: Callable[..., Any] = scope["call"]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from array import array
+from functools import cache
 
 from polycnc.deferred.named_tuples import NamedTuple
-from polycnc.deferred.typing import TYPE_CHECKING
+from polycnc.deferred.typing import TYPE_CHECKING, ClassVar
 from polycnc.motion.third_order.laws.compiled import kernels
 from polycnc.motion.third_order.laws.courses import (
     BATCH,
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 
 #: Room for nodes at first, by the places of the estimate and besides.
 PER_PLACE, BESIDES = 1, 256
+#: No array of a law is larger, bytes.
+LARGEST = 1 << 23
 #: Where a law begins by itself.
 NONE = Known(array("d"), array("d"), array("d"), array("d"))
 
@@ -50,16 +53,26 @@ class Found(NamedTuple):
 
 
 class Room:
-    """Arrays in which laws are found, one after another: new memory costs as much as several steps of a law."""
+    """Arrays in which laws are found, one after another: new memory costs as much as several steps of a law.
+
+    What one has leaves to the next one when it is no longer used: the runs of a program are many, and some are short.
+    """
+
+    _left: ClassVar[list[dict[str, tuple[array[float], ...]]]] = []
 
     def __init__(self) -> None:
-        self._arrays: dict[str, array[float]] = {}
+        _keep_memory()
+        self._arrays = self._left.pop() if self._left else {}
 
-    def numbers(self, use: str, count: int) -> array[float]:
-        """At least so many numbers for a use; they are what the law before has left."""
+    def __del__(self) -> None:
+        if not self._left:
+            self._left.append(self._arrays)
+
+    def numbers(self, use: str, count: int, *sizes: int) -> tuple[array[float], ...]:
+        """Arrays for a use, each so many times `count` numbers at least; they are what the law before has left."""
         found = self._arrays.get(use)
-        if found is None or len(found) < count:
-            found = self._arrays[use] = numbers(count)
+        if found is None or len(found[0]) < count * sizes[0]:
+            found = self._arrays[use] = tuple(numbers(count * size) for size in sizes)
         return found
 
 
@@ -80,13 +93,11 @@ def quickest(
     """
     given, n = room or Room(), len(axes.jerk)
     count = 3 * len(course.cap2) + 2
-    places, squares, gaps, seconds = (
-        given.numbers(use, count) for use in ("places", "squares", "gaps", "seconds")
-    )
-    way = given.numbers("ways", PER_PLACE * count + BESIDES)
+    places, squares, gaps, seconds = given.numbers("places", count, 1, 1, 1, 1)
+    (way,) = given.numbers("ways", PER_PLACE * count + BESIDES, 1)
     count = kernels().place_nodes(course, axes, ends, places, squares, gaps, seconds, way)
     if count > len(way):
-        way = given.numbers("ways", count)
+        (way,) = given.numbers("ways", count, 1)
         count = kernels().place_nodes(course, axes, ends, places, squares, gaps, seconds, way)
     if _rests_at_once(ends[Ends.START_SPEED], ends[Ends.START_PULL], way[1] - way[0]) or _rests_at_once(
         ends[Ends.END_SPEED], -ends[Ends.END_PULL], way[count - 1] - way[count - 2]
@@ -95,20 +106,12 @@ def quickest(
     if known.way:
         merged = numbers(len(known.way) + count)
         count, way = kernels().merge(known.way, way, count, merged), merged
-    nodes = Nodes(
-        way[:count],
-        numbers(count),
-        numbers(count),
-        numbers(count),
-        given.numbers("shape", count * n * Shape.SIZE),
-        given.numbers("stencil", count * Stencil.SIZE),
+    shape, stencil, most, bands = given.numbers(
+        f"nodes of {n} axes", count, n * Shape.SIZE, Stencil.SIZE, 3 * PAIR, BANDS
     )
-    phases, most = numbers(PAIR * (count - 1) * Phase.SIZE), given.numbers("most", 3 * PAIR * (count - 1))
-    work = Work(
-        given.numbers("moves", n),
-        given.numbers("bands", BANDS * count),
-        given.numbers("forces", Force.SIZE * BATCH),
-    )
+    moves, forces = given.numbers(f"{n} axes", 1, n, Force.SIZE * BATCH)
+    nodes = Nodes(way[:count], numbers(count), numbers(count), numbers(count), shape, stencil)
+    phases, work = numbers(PAIR * (count - 1) * Phase.SIZE), Work(moves, bands, forces)
     rounds = kernels().find_law(course, axes, ends, places, squares, nodes, known, work, phases, most)
     if rounds < 0:
         return None
@@ -118,6 +121,17 @@ def quickest(
 def _rests_at_once(speed: float, pull: float, way: float) -> bool:
     """Whether a motion is at rest before the middle of the way to the next node: there is no law between the two."""
     return speed > 0.0 and speed * speed + 0.5 * pull * way <= 0.0
+
+
+@cache
+def _keep_memory() -> None:
+    """Have the C library keep memory that is freed, for what is asked for next.
+
+    That of Linux gets large blocks from the system and gives them back, page by page, which takes as long as all else
+    that is done for a law in Python. It does so with blocks larger than the largest one so far that was given back
+    (`man mallopt`, M_MMAP_THRESHOLD): here one that nobody has written to. Other systems do not mind.
+    """
+    bytes(LARGEST)
 
 
 def numbers(count: int) -> array[float]:
