@@ -12,12 +12,12 @@ from polycnc.motion.third_order.bends.controls import Spline
 from polycnc.motion.third_order.bends.knots import Samples
 from polycnc.motion.third_order.bends.pieces import Pieces
 from polycnc.motion.third_order.bends.seams import BESIDES, KNOWN, SIDE, first_piece, pieces_behind
+from polycnc.motion.third_order.bends.stretches import Stretches
 from polycnc.motion.third_order.bends.turning import Turning
 from polycnc.motion.third_order.compiled import kernels
 
 if TYPE_CHECKING:
     from polycnc.kernels.layout import Floats, Ints
-    from polycnc.motion.third_order.bends.stretches import Stretches
 
 #: Room for knots: a stretch has so many at first, and the path so many besides; fourfold where that is too little.
 PER_STRETCH, OTHERS = 3, 64
@@ -62,22 +62,32 @@ class Part(NamedTuple):
 
 def cut_out(path: Stretches, first: int, end: int, origin: float) -> Stretches:
     """The stretches from one to before another; their ways are counted from `origin`."""
-    n, way = len(path.rotary), numbers(end - first + 1)
-    kernels().shift_ways(path.way, first, end - first + 1, origin, way, 0)
-    return path._replace(
-        way=way,
-        place=path.place[first * n : (end + 1) * n],
-        leave=path.leave[first * n : end * n],
-        arrive=path.arrive[first * n : end * n],
-        form=path.form[first:end],
-        tolerance=path.tolerance[first:end],
-        turn_tolerance=path.turn_tolerance[first:end],
-        cap2=path.cap2[first:end],
-        step2=path.step2[first:end],
-        spread2=path.spread2[first:end],
-        left2=path.left2[first:end],
-        ease=path.ease[first:end],
-        row=path.row[first:end],
+    cut = part_of(path, first, end)
+    if origin != 0.0:
+        kernels().shift_ways(path.way, first, end - first + 1, origin, cut.way, 0)
+    return cut
+
+
+def part_of(path: Stretches, first: int, end: int) -> Stretches:
+    """The stretches from one to before another; their ways go on."""
+    n, own = len(path.rotary), slice(first, end)
+    vectors = slice(first * n, end * n)
+    return Stretches(
+        path.way[first : end + 1],
+        path.place[first * n : (end + 1) * n],
+        path.leave[vectors],
+        path.arrive[vectors],
+        path.form[own],
+        path.tolerance[own],
+        path.turn_tolerance[own],
+        path.cap2[own],
+        path.step2[own],
+        path.spread2[own],
+        path.left2[own],
+        path.ease[own],
+        path.row[own],
+        path.rotary,
+        path.top,
     )
 
 
@@ -132,7 +142,8 @@ def bend_between(path: Stretches, head: Seam | None, tail: Seam | None, room: Ro
     """Bend a path between two seams, or from rest, or to rest.
 
     Args:
-        path: The path, no further than it must be known beyond the seams; from rest it begins there.
+        path: The path, no further than it must be known beyond the seams; from rest it begins there. Tangents of
+            lines that are chords of a curve may be set.
         head: The seam at which it begins; none from rest.
         tail: The seam at which it ends; none to rest.
         room: Of parts that are bent one behind the other.
@@ -143,6 +154,8 @@ def bend_between(path: Stretches, head: Seam | None, tail: Seam | None, room: Ro
     if head is not None and tail is not None and tail.way - head.way <= SIDE * (head.apart + tail.apart):
         msg = f"a seam at {tail.way} mm lies too near to that at {head.way} mm"
         raise ValueError(msg)
+    if head is None and tail is None and path.way[0] == 0.0:
+        return bent_part(path, array("d", (0.0, 0.0, 0.0, 0.0)), room or Room())
     first = 0 if head is None else known_from(path, head)
     end = len(path.form) if tail is None else known_to(path, tail)
     origin = path.way[0] if head is None else head.way
