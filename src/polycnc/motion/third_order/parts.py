@@ -173,12 +173,12 @@ def bent_part(path: Stretches, seams: array[float], room: Room) -> Part:
     Raises:
         ValueError: The tolerance is not kept.
     """
-    n, told = len(path.rotary), whole(3)
+    n, told = len(path.rotary), whole(4)
     room.for_stretches(len(path.form), n)
     while True:
         spline, pieces = room.spline, room.pieces
         found = kernels().bend_path(
-            path, seams, room.smooth, room.turning, room.samples, spline, pieces, told
+            path, seams, room.smooth, room.turning, room.samples, spline, pieces, room.rows, room.ways, told
         )
         if found != NO_ROOM:
             break
@@ -188,7 +188,7 @@ def bent_part(path: Stretches, seams: array[float], room: Room) -> Part:
         raise ValueError(msg)
     low, high = first_piece(seams), found - pieces_behind(seams)
     of_knots = slice(low * n, (high + 1) * n)
-    ended = kernels().end_rows(path, spline.way[low], spline.way[high], room.rows, room.ways)
+    ended = told[3]
     return Part(
         spline.way[low : high + 1],
         spline.place[of_knots],
@@ -206,7 +206,7 @@ def bent_part(path: Stretches, seams: array[float], room: Room) -> Part:
 def turning_for(count: int) -> Turning:
     """Room for the turning of so many stretches."""
     before, behind, area = (numbers(count + 1) for _ in range(3))
-    return Turning(before, behind, area, numbers(count))
+    return Turning(before, behind, area, *(numbers(count) for _ in range(3)))
 
 
 def spline_for(room: int, n: int) -> Spline:

@@ -6,10 +6,10 @@ from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.controls import Spline, lay_controls, shape
 from polycnc.motion.third_order.bends.knots import Samples, even_out, place_knots, take_samples
 from polycnc.motion.third_order.bends.levelling import level
-from polycnc.motion.third_order.bends.pieces import Pieces, bound_pieces, cut_pieces, take_left
+from polycnc.motion.third_order.bends.pieces import Pieces, bound_pieces, cut_pieces, end_rows, take_left
 from polycnc.motion.third_order.bends.seams import first_piece, pieces_behind
 from polycnc.motion.third_order.bends.stretches import Stretches, curve_lines
-from polycnc.motion.third_order.bends.turning import Turning, sum_turning, weigh_evenly
+from polycnc.motion.third_order.bends.turning import Turning, measure, sum_turning
 from polycnc.motion.third_order.bends.within import weigh_excess
 
 #: Times that knots are placed anew because the tolerance was exceeded somewhere; the first of them with levelling.
@@ -26,6 +26,8 @@ def bend_path(
     samples: Samples,
     spline: Spline,
     pieces: Pieces,
+    rows: Ints,
+    ways: Floats,
     told: Ints,
 ) -> int:
     """Bend a path within its tolerance.
@@ -38,16 +40,18 @@ def bend_path(
         samples: Room.
         spline: Room, filled in.
         pieces: Likewise.
-        told: Set to rounds, places that exceeded the tolerance at first, samples.
+        rows: Room for a number for each stretch: the rows that end between the seams.
+        ways: The same: where they do.
+        told: Set to rounds, places that exceeded the tolerance at first, samples, rows that end.
 
     Returns:
         Number of pieces of the spline, or NO_ROOM or NOT_WITHIN.
     """
     n = len(path.rotary)
     curve_lines(path, n, smooth)
-    weigh_evenly(turning, len(path.form))
+    measure(path, n, smooth, turning)
     for number in range(ROUNDS):
-        sum_turning(path, n, turning)
+        sum_turning(path, turning)
         count = take_samples(path, turning, seams, samples)
         if count < 0:
             return NO_ROOM
@@ -64,9 +68,10 @@ def bend_path(
         if number == 0:
             told[1] = found
         if found == 0:
-            last = made - pieces_behind(seams)
+            first, last = first_piece(seams), made - pieces_behind(seams)
+            told[3] = end_rows(path, spline.way[first], spline.way[last], rows, ways)
             take_left(path, spline, made, pieces)
-            made = cut_pieces(path, n, spline, made, first_piece(seams), last, pieces)
+            made = cut_pieces(path, n, spline, made, first, last, pieces)
             if made < 0:
                 return NO_ROOM
             bound_pieces(path, n, spline, made, pieces)

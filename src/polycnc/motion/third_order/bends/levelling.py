@@ -11,7 +11,6 @@ from math import sqrt
 
 from polycnc.motion.third_order.bends.controls import Spline, knot, shape_knot
 from polycnc.motion.third_order.bends.stretches import Stretches, tolerance_of, turn_tolerance_of
-from polycnc.motion.third_order.bends.within import off
 
 #: Part of the tolerance that is used; largest part of the bow; times that control points are moved.
 USED, MOST, TIMES = 0.98, 1.5, 5
@@ -48,10 +47,10 @@ def choose(spline: Spline, pieces: int) -> int:
 
 
 def move_on(path: Stretches, n: int, spline: Spline, pieces: int, e: int, k: int) -> None:
-    """Move the control point of knot k on, at a corner before stretch e."""
+    """Move the control point of knot k on, which lies at the corner before stretch e."""
     line2, turn = 0.0, 0.0
     for i in range(n):
-        apart, _ = off(path, n, spline, e, k, spline.way[k], i)
+        apart = spline.place[k * n + i] - path.place[e * n + i]
         if path.rotary[i] != 0.0:
             turn = max(turn, abs(apart))
         else:

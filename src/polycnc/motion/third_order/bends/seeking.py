@@ -8,7 +8,7 @@ from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.controls import Spline, lay_controls, shape
 from polycnc.motion.third_order.bends.seams import BESIDES, SIDE
 from polycnc.motion.third_order.bends.stretches import Stretches, curve_lines, length_of
-from polycnc.motion.third_order.bends.turning import Turning, reach, sum_turning, weigh_evenly
+from polycnc.motion.third_order.bends.turning import Turning, measure, reach, sum_turning
 from polycnc.motion.third_order.bends.within import most_used
 
 #: On a straight line knots of a seam are apart by this part of it: there they bend nothing. Elsewhere by this part of
@@ -48,8 +48,8 @@ def find_seam(
     """
     n, e = len(path.rotary), low
     curve_lines(path, n, smooth)
-    weigh_evenly(turning, len(path.form))
-    sum_turning(path, n, turning)
+    measure(path, n, smooth, turning)
+    sum_turning(path, turning)
     for k in range(low, high):
         if length_of(path, k) > length_of(path, e):
             e = k
