@@ -27,6 +27,7 @@ LIBRARY = Library(
         f"{_BENDS}.seams",
         f"{_BENDS}.knots",
         f"{_BENDS}.controls",
+        f"{_BENDS}.keeping",
         f"{_BENDS}.within",
         f"{_BENDS}.levelling",
         f"{_BENDS}.at_corners",
@@ -48,7 +49,9 @@ LIBRARY = Library(
 class Kernels(NamedTuple):
     """The kernels that Python calls; see `bending.py`, `rests.py`, `seams.py` and `seeking.py`."""
 
-    bend_path: Callable[[Stretches, Floats, Ints, Turning, Samples, Spline, Pieces, Ints, Floats, Ints], int]
+    bend_path: Callable[
+        [Stretches, Floats, Ints, Turning, Samples, Spline, Pieces, Floats, Ints, Floats, Ints], int
+    ]
     next_rest: Callable[[Stretches, int], int]
     shift_ways: Callable[[Floats, int, int, float, Floats, int], object]
     find_seam: Callable[[Stretches, int, int, Ints, Turning, Spline, Floats], int]

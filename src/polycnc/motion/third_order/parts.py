@@ -9,6 +9,7 @@ from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.third_order.bends.bending import NO_ROOM, NOT_WITHIN
 from polycnc.motion.third_order.bends.controls import Spline
+from polycnc.motion.third_order.bends.keeping import VECTORS, Kept
 from polycnc.motion.third_order.bends.knots import Samples
 from polycnc.motion.third_order.bends.pieces import Pieces
 from polycnc.motion.third_order.bends.seams import BESIDES, KNOWN, SIDE, first_piece, pieces_behind
@@ -110,6 +111,7 @@ class Room:
         samples: Likewise.
         spline: Likewise.
         pieces: Likewise.
+        before: Likewise.
         rows: Rows that end in a part.
         ways: Where they do.
     """
@@ -130,7 +132,7 @@ class Room:
         if count > self._knots or n > self._axes:
             self._knots, self._axes = count, n
             self.samples = Samples(numbers(count), numbers(count), *(whole(count) for _ in range(3)))
-            self.spline = spline_for(count, n)
+            self.spline, self.before = spline_for(count, n), numbers(count * (Kept.SIZE + VECTORS * n))
             self.pieces = Pieces(numbers(count), numbers(count), numbers(count), whole(count))
 
     def widen(self) -> None:
@@ -178,8 +180,9 @@ def bent_part(path: Stretches, seams: array[float], room: Room) -> Part:
     while True:
         spline, pieces = room.spline, room.pieces
         found = kernels().bend_path(
-            path, seams, room.smooth, room.turning, room.samples, spline, pieces, room.rows, room.ways, told
-        )
+            path, seams, room.smooth, room.turning, room.samples, spline, pieces,
+            room.before, room.rows, room.ways, told,
+        )  # fmt: skip
         if found != NO_ROOM:
             break
         room.widen()
@@ -212,7 +215,8 @@ def turning_for(count: int) -> Turning:
 def spline_for(room: int, n: int) -> Spline:
     """Room for a spline of so many knots."""
     way, apart, moved = (numbers(more) for more in (room, room, room + 3))
-    return Spline(way, apart, moved, whole(room), whole(room), *(numbers((room + 3) * n) for _ in range(4)))
+    vectors = (numbers((room + 3) * n) for _ in range(4))
+    return Spline(way, apart, moved, *(whole(room) for _ in range(3)), *vectors)
 
 
 def numbers(count: int) -> array[float]:

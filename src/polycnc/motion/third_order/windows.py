@@ -80,9 +80,7 @@ class Windows:
         speed: Of the motion in which the first leg begins.
     """
 
-    def __init__(
-        self, axes: Axes, take: Callable[[Window], object], room: Room, speed: float = 0.0
-    ) -> None:
+    def __init__(self, axes: Axes, take: Callable[[Window], object], room: Room, speed: float = 0.0) -> None:
         self._axes, self._take = axes, take
         self._parts: deque[Part] = deque()
         self._first = (speed, 0.0)

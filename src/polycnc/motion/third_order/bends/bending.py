@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.controls import Spline, lay_controls, shape
+from polycnc.motion.third_order.bends.keeping import VECTORS, Kept, forget, keep, take_over
 from polycnc.motion.third_order.bends.knots import Samples, even_out, place_knots, take_samples
 from polycnc.motion.third_order.bends.levelling import level
 from polycnc.motion.third_order.bends.pieces import Pieces, bound_pieces, cut_pieces, end_rows, take_left
@@ -26,6 +27,7 @@ def bend_path(
     samples: Samples,
     spline: Spline,
     pieces: Pieces,
+    before: Floats,
     rows: Ints,
     ways: Floats,
     told: Ints,
@@ -40,6 +42,7 @@ def bend_path(
         samples: Room.
         spline: Room, filled in.
         pieces: Likewise.
+        before: Room for what a round leaves to the next (`keeping.py`).
         rows: Room for a number for each stretch: the rows that end between the seams.
         ways: The same: where they do.
         told: Set to rounds, places that exceeded the tolerance at first, samples, rows that end.
@@ -50,6 +53,7 @@ def bend_path(
     n = len(path.rotary)
     curve_lines(path, n, smooth)
     measure(path, n, smooth, turning)
+    kept, width = 0, Kept.SIZE + VECTORS * n
     for number in range(ROUNDS):
         sum_turning(path, turning)
         count = take_samples(path, turning, seams, samples)
@@ -57,8 +61,12 @@ def bend_path(
             return NO_ROOM
         even_out(samples, count)
         made = place_knots(samples, count, seams, spline) - 1
-        if made < 0 or (made + 3) * n > len(spline.control):
+        if made < 0 or (made + 3) * n > len(spline.control) or (made + 1) * width > len(before):
             return NO_ROOM
+        if number == 0:
+            forget(spline, made)
+        else:
+            take_over(spline, n, made, before, kept)
         lay_controls(path, n, spline, made)
         shape(spline, n, made)
         if number < LEVELLED:
@@ -76,4 +84,6 @@ def bend_path(
                 return NO_ROOM
             bound_pieces(path, n, spline, made, pieces)
             return made
+        keep(spline, n, made, before)
+        kept = made
     return NOT_WITHIN

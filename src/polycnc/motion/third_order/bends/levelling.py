@@ -40,7 +40,7 @@ def choose(spline: Spline, pieces: int) -> int:
     found = 0
     for k in range(1, pieces):
         nearest = min(spline.way[k] - spline.way[k - 1], spline.way[k + 1] - spline.way[k])
-        if nearest < HAS_ROOM * spline.room[k]:
+        if spline.kept[k] == 0 and nearest < HAS_ROOM * spline.room[k]:
             spline.moving[found], spline.moved[k] = k, 0.0
             found += 1
     return found

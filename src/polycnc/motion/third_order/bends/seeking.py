@@ -6,6 +6,7 @@ from math import sqrt
 
 from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.controls import Spline, lay_controls, shape
+from polycnc.motion.third_order.bends.keeping import forget
 from polycnc.motion.third_order.bends.seams import BESIDES, SIDE
 from polycnc.motion.third_order.bends.stretches import Stretches, curve_lines, length_of
 from polycnc.motion.third_order.bends.turning import Turning, measure, reach, sum_turning
@@ -130,6 +131,7 @@ def used_by(path: Stretches, n: int, spline: Spline, way: float, apart: float, o
     for k in range(2):
         beyond = (SIDE + (2 - k) * outer) * apart
         spline.way[k], spline.way[pieces - k] = way - beyond, way + beyond
+    forget(spline, pieces)
     lay_controls(path, n, spline, pieces)
     shape(spline, n, pieces)
     return most_used(path, n, spline, 1, pieces - 1)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.third_order.bends.controls import Spline
+from polycnc.motion.third_order.bends.controls import Spline, is_kept
 from polycnc.motion.third_order.bends.seams import first_piece, pieces_behind
 from polycnc.motion.third_order.bends.stretches import LINE, Stretches, tolerance_of, turn_tolerance_of
 from polycnc.motion.third_order.bends.turning import Turning
@@ -25,7 +25,7 @@ def weigh_excess(
 ) -> int:
     """Let the turning count more around places where the path is left by more than its tolerance; their number.
 
-    Only between the seams. `number` is that of the round, from 0 on.
+    Only between the seams, and not where all is as in the round before. `number` is that of the round, from 0 on.
     """
     e, k, last, found = 0, first_piece(seams), len(path.form) - 1, 0
     raised, behind = -1, pieces - pieces_behind(seams)
@@ -33,7 +33,7 @@ def weigh_excess(
     while path.way[e + 1] <= start:
         e += 1
     while k < behind:
-        if is_sure(spline, pieces, k):
+        if is_sure(spline, pieces, k) or is_kept(spline, pieces, k - 1, k + 2):
             k += 1
             start = spline.way[k]
             while e < last and path.way[e + 1] <= start:
@@ -46,6 +46,7 @@ def weigh_excess(
             used = part_used(path, n, spline, e, k, start, end)
             if used > 1.0:
                 found += 1
+                spline.kept[k] = spline.kept[k + 1] = -1
                 factor = MORE + STUBBORN * number * number + RATE * (number + 1.0) * (used - 1.0)
                 factor = min(factor, MOST)
                 raised = raise_weights(path, spline, pieces, turning, e, k, factor, raised)
