@@ -63,14 +63,7 @@ def bend_path(
         made = place_knots(samples, count, seams, spline) - 1
         if made < 0 or (made + 3) * n > len(spline.control) or (made + 1) * width > len(before):
             return NO_ROOM
-        if number == 0:
-            forget(spline, made)
-        else:
-            take_over(spline, n, made, before, kept)
-        lay_controls(path, n, spline, made)
-        shape(spline, n, made)
-        if number < LEVELLED:
-            level(path, n, spline, made)
+        lay_spline(path, n, spline, made, number, before, kept)
         found = weigh_excess(path, n, spline, made, seams, turning, number)
         told[0], told[2] = number, count
         if number == 0:
@@ -78,12 +71,33 @@ def bend_path(
         if found == 0:
             first, last = first_piece(seams), made - pieces_behind(seams)
             told[3] = end_rows(path, spline.way[first], spline.way[last], rows, ways)
-            take_left(path, spline, made, pieces)
-            made = cut_pieces(path, n, spline, made, first, last, pieces)
-            if made < 0:
-                return NO_ROOM
-            bound_pieces(path, n, spline, made, pieces)
-            return made
+            return put_pieces(path, n, spline, made, first, last, pieces)
         keep(spline, n, made, before)
         kept = made
     return NOT_WITHIN
+
+
+def lay_spline(
+    path: Stretches, n: int, spline: Spline, made: int, number: int, before: Floats, kept: int
+) -> None:
+    """Find the spline of so many pieces; the round before has kept `kept` ones."""
+    if number == 0:
+        forget(spline, made)
+    else:
+        take_over(spline, n, made, before, kept)
+    lay_controls(path, n, spline, made)
+    shape(spline, n, made)
+    if number < LEVELLED:
+        level(path, n, spline, made)
+
+
+def put_pieces(
+    path: Stretches, n: int, spline: Spline, made: int, first: int, last: int, pieces: Pieces
+) -> int:
+    """Cut the pieces of a spline from one to before another, and bound all; their number, NO_ROOM without room."""
+    take_left(path, spline, made, pieces)
+    made = cut_pieces(path, n, spline, made, first, last, pieces)
+    if made < 0:
+        return NO_ROOM
+    bound_pieces(path, n, spline, made, pieces)
+    return made
