@@ -216,7 +216,7 @@ def spline_for(room: int, n: int) -> Spline:
     """Room for a spline of so many knots."""
     way, apart, moved = (numbers(more) for more in (room, room, room + 3))
     vectors = (numbers((room + 3) * n) for _ in range(4))
-    return Spline(way, apart, moved, *(whole(room) for _ in range(3)), *vectors)
+    return Spline(way, apart, moved, whole(room), whole(room), whole(room), *vectors)
 
 
 def numbers(count: int) -> array[float]:

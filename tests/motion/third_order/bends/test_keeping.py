@@ -5,6 +5,7 @@ from __future__ import annotations
 from array import array
 from math import cos, sin
 from random import Random
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -14,6 +15,10 @@ from polycnc.motion.third_order.bend import bend
 from polycnc.motion.third_order.bends import bending, keeping
 from polycnc.motion.third_order.compiled import plain
 from tests.motion.third_order.programmed import Bounds, ProgrammedPath
+
+if TYPE_CHECKING:
+    from polycnc.kernels.layout import Floats
+    from polycnc.motion.third_order.bends.controls import Spline
 
 TOPS = array("d", (250.0, 250.0, 250.0))
 
@@ -34,13 +39,13 @@ def test_the_path_is_that_of_rounds_that_keep_nothing(seed: int, monkeypatch: py
     monkeypatch.setattr(parts, "kernels", plain)
     kept, rounds = list[int](), list[int]()
 
-    def note(spline: object, n: int, k: int, before: object, at: int) -> None:
+    def note(spline: Spline, n: int, k: int, before: Floats, at: int) -> None:
         kept.append(k)
-        put_back(spline, n, k, before, at)  # type: ignore[arg-type]
+        put_back(spline, n, k, before, at)
 
-    def nothing(spline: object, n: int, pieces: int, before: object, count: int) -> None:
+    def nothing(spline: Spline, n: int, pieces: int, before: Floats, count: int) -> None:
         rounds.append(pieces)
-        keeping.forget(spline, pieces)  # type: ignore[arg-type]
+        keeping.forget(spline, pieces)
 
     put_back = keeping.put_back
     monkeypatch.setattr(keeping, "put_back", note)
@@ -56,8 +61,12 @@ def test_the_path_is_that_of_rounds_that_keep_nothing(seed: int, monkeypatch: py
 def test_some_of_these_paths_are_bent_more_than_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(parts, "kernels", plain)
     found = list[int]()
-    take_over = bending.take_over
-    monkeypatch.setattr(bending, "take_over", lambda *args: (found.append(1), take_over(*args)))
+
+    def note(spline: Spline, n: int, pieces: int, before: Floats, count: int) -> None:
+        found.append(pieces)
+        keeping.take_over(spline, n, pieces, before, count)
+
+    monkeypatch.setattr(bending, "take_over", note)
     for seed in range(6):
         bend(wandering(seed).path)
     assert len(found) >= 3
