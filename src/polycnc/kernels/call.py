@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from array import array
 from itertools import accumulate, chain
-from operator import attrgetter
+from operator import attrgetter, itemgetter
 from struct import Struct
 
 from polycnc.deferred.typing import TYPE_CHECKING, Any
@@ -59,16 +59,20 @@ def _hander(codes: str) -> Callable[[Iterable[Any]], list[Any]]:
     """What makes of the arguments of a kernel those of its machine code."""
     wanted = "".join(code for code in codes if code not in _FORMS)
     arrays = [i for i, code in enumerate(codes) if code not in _FORMS]
+    pick = itemgetter(*arrays) if len(arrays) > 1 else lambda flat: [flat[i] for i in arrays]
     others = [(i, code) for i, code in enumerate(codes) if code in _FORMS]
     places = [0, *accumulate(len(_FORMS.get(code, _ARRAY)) for code in codes)]
 
     def hand(given: Iterable[Any]) -> list[Any]:
         flat: list[Any] = []
         for each in given:
-            flat += each if isinstance(each, tuple) else (each,)
+            if isinstance(each, tuple):
+                flat += each
+            else:
+                flat.append(each)
         if len(flat) != len(codes):
             raise ValueError(f"a kernel was given {len(flat)} arguments, not {len(codes)}")
-        found = [flat[i] for i in arrays]
+        found = pick(flat)
         if "".join(map(_typecode, found)) != wanted:
             _refuse(wanted, found)
         handed = [*chain.from_iterable(map(array.buffer_info, found))]

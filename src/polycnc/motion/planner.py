@@ -392,7 +392,8 @@ class Planner:
         """Count the time of windows that are settled, and hand their pieces on."""
         while runs.windows:
             window = runs.windows.popleft()
-            self._kernels.settle(self._pieces, self._axes, self._limits, self._state)
+            if self._state.run.pieces > 0:
+                self._kernels.settle(self._pieces, self._axes, self._limits, self._state)
             self._look_ahead(window.rows.row[0])
             window.add_times(self._slots, self._rows, self._first_row)
             self._beside.settle(window.rows.row[-1], self._seconds, self._wait)

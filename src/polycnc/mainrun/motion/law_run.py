@@ -91,7 +91,7 @@ class LawRun:
 
     def take(self, stretches: Stretches, *, closed: bool) -> None:
         """More of the run is known; it is over with that where it is closed."""
-        self._planner.take(stretches)
+        self._planner.take(stretches, closed=closed)
         if closed:
             self._planner.finish()
             self.is_closed = True

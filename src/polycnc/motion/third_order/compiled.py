@@ -27,6 +27,7 @@ LIBRARY = Library(
         f"{_BENDS}.seams",
         f"{_BENDS}.knots",
         f"{_BENDS}.controls",
+        f"{_BENDS}.keeping",
         f"{_BENDS}.within",
         f"{_BENDS}.levelling",
         f"{_BENDS}.at_corners",
@@ -38,7 +39,6 @@ LIBRARY = Library(
     (
         f"{_BENDS}.bending.bend_path",
         f"{_BENDS}.rests.next_rest",
-        f"{_BENDS}.pieces.end_rows",
         f"{_BENDS}.seams.shift_ways",
         f"{_BENDS}.seeking.find_seam",
         f"{_BENDS}.seeking.far_enough",
@@ -47,11 +47,12 @@ LIBRARY = Library(
 
 
 class Kernels(NamedTuple):
-    """The kernels that Python calls; see `bending.py`, `rests.py`, `pieces.py`, `seams.py` and `seeking.py`."""
+    """The kernels that Python calls; see `bending.py`, `rests.py`, `seams.py` and `seeking.py`."""
 
-    bend_path: Callable[[Stretches, Floats, Ints, Turning, Samples, Spline, Pieces, Ints], int]
+    bend_path: Callable[
+        [Stretches, Floats, Ints, Turning, Samples, Spline, Pieces, Floats, Ints, Floats, Ints], int
+    ]
     next_rest: Callable[[Stretches, int], int]
-    end_rows: Callable[[Stretches, float, float, Ints, Floats], int]
     shift_ways: Callable[[Floats, int, int, float, Floats, int], object]
     find_seam: Callable[[Stretches, int, int, Ints, Turning, Spline, Floats], int]
     far_enough: Callable[[Stretches, int, int, int, float, int, Floats], int]

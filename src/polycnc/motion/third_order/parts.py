@@ -9,15 +9,16 @@ from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.third_order.bends.bending import NO_ROOM, NOT_WITHIN
 from polycnc.motion.third_order.bends.controls import Spline
+from polycnc.motion.third_order.bends.keeping import VECTORS, Kept
 from polycnc.motion.third_order.bends.knots import Samples
 from polycnc.motion.third_order.bends.pieces import Pieces
 from polycnc.motion.third_order.bends.seams import BESIDES, KNOWN, SIDE, first_piece, pieces_behind
+from polycnc.motion.third_order.bends.stretches import Stretches
 from polycnc.motion.third_order.bends.turning import Turning
 from polycnc.motion.third_order.compiled import kernels
 
 if TYPE_CHECKING:
     from polycnc.kernels.layout import Floats, Ints
-    from polycnc.motion.third_order.bends.stretches import Stretches
 
 #: Room for knots: a stretch has so many at first, and the path so many besides; fourfold where that is too little.
 PER_STRETCH, OTHERS = 3, 64
@@ -62,22 +63,32 @@ class Part(NamedTuple):
 
 def cut_out(path: Stretches, first: int, end: int, origin: float) -> Stretches:
     """The stretches from one to before another; their ways are counted from `origin`."""
-    n, way = len(path.rotary), numbers(end - first + 1)
-    kernels().shift_ways(path.way, first, end - first + 1, origin, way, 0)
-    return path._replace(
-        way=way,
-        place=path.place[first * n : (end + 1) * n],
-        leave=path.leave[first * n : end * n],
-        arrive=path.arrive[first * n : end * n],
-        form=path.form[first:end],
-        tolerance=path.tolerance[first:end],
-        turn_tolerance=path.turn_tolerance[first:end],
-        cap2=path.cap2[first:end],
-        step2=path.step2[first:end],
-        spread2=path.spread2[first:end],
-        left2=path.left2[first:end],
-        ease=path.ease[first:end],
-        row=path.row[first:end],
+    cut = part_of(path, first, end)
+    if origin != 0.0:
+        kernels().shift_ways(path.way, first, end - first + 1, origin, cut.way, 0)
+    return cut
+
+
+def part_of(path: Stretches, first: int, end: int) -> Stretches:
+    """The stretches from one to before another; their ways go on."""
+    n, own = len(path.rotary), slice(first, end)
+    vectors = slice(first * n, end * n)
+    return Stretches(
+        path.way[first : end + 1],
+        path.place[first * n : (end + 1) * n],
+        path.leave[vectors],
+        path.arrive[vectors],
+        path.form[own],
+        path.tolerance[own],
+        path.turn_tolerance[own],
+        path.cap2[own],
+        path.step2[own],
+        path.spread2[own],
+        path.left2[own],
+        path.ease[own],
+        path.row[own],
+        path.rotary,
+        path.top,
     )
 
 
@@ -100,6 +111,7 @@ class Room:
         samples: Likewise.
         spline: Likewise.
         pieces: Likewise.
+        before: Likewise.
         rows: Rows that end in a part.
         ways: Where they do.
     """
@@ -120,7 +132,7 @@ class Room:
         if count > self._knots or n > self._axes:
             self._knots, self._axes = count, n
             self.samples = Samples(numbers(count), numbers(count), *(whole(count) for _ in range(3)))
-            self.spline = spline_for(count, n)
+            self.spline, self.before = spline_for(count, n), numbers(count * (Kept.SIZE + VECTORS * n))
             self.pieces = Pieces(numbers(count), numbers(count), numbers(count), whole(count))
 
     def widen(self) -> None:
@@ -132,7 +144,8 @@ def bend_between(path: Stretches, head: Seam | None, tail: Seam | None, room: Ro
     """Bend a path between two seams, or from rest, or to rest.
 
     Args:
-        path: The path, no further than it must be known beyond the seams; from rest it begins there.
+        path: The path, no further than it must be known beyond the seams; from rest it begins there. Tangents of
+            lines that are chords of a curve may be set.
         head: The seam at which it begins; none from rest.
         tail: The seam at which it ends; none to rest.
         room: Of parts that are bent one behind the other.
@@ -143,6 +156,8 @@ def bend_between(path: Stretches, head: Seam | None, tail: Seam | None, room: Ro
     if head is not None and tail is not None and tail.way - head.way <= SIDE * (head.apart + tail.apart):
         msg = f"a seam at {tail.way} mm lies too near to that at {head.way} mm"
         raise ValueError(msg)
+    if head is None and tail is None and path.way[0] == 0.0:
+        return bent_part(path, array("d", (0.0, 0.0, 0.0, 0.0)), room or Room())
     first = 0 if head is None else known_from(path, head)
     end = len(path.form) if tail is None else known_to(path, tail)
     origin = path.way[0] if head is None else head.way
@@ -160,13 +175,14 @@ def bent_part(path: Stretches, seams: array[float], room: Room) -> Part:
     Raises:
         ValueError: The tolerance is not kept.
     """
-    n, told = len(path.rotary), whole(3)
+    n, told = len(path.rotary), whole(4)
     room.for_stretches(len(path.form), n)
     while True:
         spline, pieces = room.spline, room.pieces
         found = kernels().bend_path(
-            path, seams, room.smooth, room.turning, room.samples, spline, pieces, told
-        )
+            path, seams, room.smooth, room.turning, room.samples, spline, pieces,
+            room.before, room.rows, room.ways, told,
+        )  # fmt: skip
         if found != NO_ROOM:
             break
         room.widen()
@@ -175,7 +191,7 @@ def bent_part(path: Stretches, seams: array[float], room: Room) -> Part:
         raise ValueError(msg)
     low, high = first_piece(seams), found - pieces_behind(seams)
     of_knots = slice(low * n, (high + 1) * n)
-    ended = kernels().end_rows(path, spline.way[low], spline.way[high], room.rows, room.ways)
+    ended = told[3]
     return Part(
         spline.way[low : high + 1],
         spline.place[of_knots],
@@ -193,13 +209,14 @@ def bent_part(path: Stretches, seams: array[float], room: Room) -> Part:
 def turning_for(count: int) -> Turning:
     """Room for the turning of so many stretches."""
     before, behind, area = (numbers(count + 1) for _ in range(3))
-    return Turning(before, behind, area, numbers(count))
+    return Turning(before, behind, area, *(numbers(count) for _ in range(3)))
 
 
 def spline_for(room: int, n: int) -> Spline:
     """Room for a spline of so many knots."""
     way, apart, moved = (numbers(more) for more in (room, room, room + 3))
-    return Spline(way, apart, moved, whole(room), whole(room), *(numbers((room + 3) * n) for _ in range(4)))
+    vectors = (numbers((room + 3) * n) for _ in range(4))
+    return Spline(way, apart, moved, whole(room), whole(room), whole(room), *vectors)
 
 
 def numbers(count: int) -> array[float]:

@@ -16,7 +16,8 @@ from array import array
 from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.third_order.compiled import kernels
-from polycnc.motion.third_order.parts import Room, Seam, bend_between, cut_out, known_from
+from polycnc.motion.third_order.laws.quickest import Room as RoomOfLaws
+from polycnc.motion.third_order.parts import Room, Seam, bend_between, cut_out, known_from, part_of
 from polycnc.motion.third_order.windows import Windows
 
 if TYPE_CHECKING:
@@ -71,6 +72,13 @@ class Passing(NamedTuple):
     speed: float
 
 
+class Rooms:
+    """Memory in which runs are bent and get their laws, one run after another: new one costs as much as both."""
+
+    def __init__(self) -> None:
+        self.bends, self.laws = Room(), RoomOfLaws()
+
+
 class RunPlanner:
     """Plans one run from rest to rest, or from and to a steady motion, in windows.
 
@@ -80,6 +88,7 @@ class RunPlanner:
         start: The motion in which the run begins; from rest without. Then its stretches begin so far before that the
             path is known there (`parts.known_from`).
         sizes: Of the windows.
+        rooms: Those of the runs before; its own without.
     """
 
     def __init__(
@@ -89,38 +98,38 @@ class RunPlanner:
         *,
         start: Passing | None = None,
         sizes: Sizes | None = None,
+        rooms: Rooms | None = None,
     ) -> None:
         self._sizes = sizes or Sizes()
         self._path: Stretches | None = None
         self._head = None if start is None else Seam(start.way, start.apart)
-        self._windows = Windows(axes, take, 0.0 if start is None else start.speed)
+        rooms = rooms or Rooms()
+        self._room = rooms.bends
+        self._windows = Windows(axes, take, rooms.laws, 0.0 if start is None else start.speed)
         # Stretches of the buffer: the first of this window, the first not counted, the last looked at for rests.
         self._since = self._counted = self._searched = 0
         self._passed = array("d", (0.0,))
         self._located = start is None
-        self._room = Room()
 
     @property
     def detours(self) -> int:
         """Windows whose law could not begin in the motion before."""
         return self._windows.detours
 
-    def take(self, chunk: Stretches) -> None:
-        """Stretches that follow those taken: their ways go on, and the first place is the last one of those."""
-        n, count = len(chunk.rotary), len(chunk.form)
+    def take(self, chunk: Stretches, *, closed: bool = False) -> None:
+        """Stretches that follow those taken: their ways go on, and the first place is the last one of those.
+
+        Their arrays are the planner's from then on. Where the run is `closed` with them it is finished next.
+        """
+        count = len(chunk.form)
         for first in range(0, count, AT_ONCE):
-            end = min(first + AT_ONCE, count)
-            fresh = 1 if self._path is None else 0  # where a path begins is known but for the first stretches
-            cut = {name: getattr(chunk, name)[first + 1 - fresh : end + 1] for name in ENDS}
-            cut |= {name: getattr(chunk, name)[(first + 1 - fresh) * n : (end + 1) * n] for name in PLACES}
-            cut |= {name: getattr(chunk, name)[first * n : end * n] for name in VECTORS}
-            cut |= {name: getattr(chunk, name)[first:end] for name in SINGLE}
-            if self._path is None:
-                self._path = chunk._replace(**cut)
+            part = chunk if count <= AT_ONCE else part_of(chunk, first, min(first + AT_ONCE, count))
+            if self._path is None:  # where a path begins is known but for the first stretches
+                self._path = part
             else:
-                for name, values in cut.items():
-                    getattr(self._path, name).extend(values)
-            self._go_on(None, ended=False)
+                _extend(self._path, part)
+            if not (closed and first + AT_ONCE >= count):
+                self._go_on(None, ended=False)
 
     def finish(self, end: Passing | None = None) -> None:
         """The run has come to its end: to rest, or to a steady motion, behind which stretches lie as before a start."""
@@ -163,7 +172,7 @@ class RunPlanner:
     def _next_seam(self, path: Stretches, end: int) -> Seam | None:
         """The seam at which the window ends, if it is settled by the stretches before `end`."""
         sizes = self._sizes
-        if not self._located:
+        if not self._located or end - self._since < min(sizes.stretches, sizes.most) + sizes.range:
             return None
         self._counted = kernels().far_enough(
             path, self._since, self._counted, sizes.stretches, sizes.seconds, sizes.most, self._passed
@@ -217,3 +226,12 @@ class RunPlanner:
         for name in PLACES + VECTORS:
             del getattr(path, name)[: first * len(path.rotary)]
         self._searched = max(self._searched - first, 0)
+
+
+def _extend(path: Stretches, part: Stretches) -> None:
+    """Let a path go on with stretches that follow it."""
+    n = len(path.rotary)
+    path.way.extend(part.way[1:])
+    path.place.extend(part.place[n:])
+    for name in VECTORS + SINGLE:
+        getattr(path, name).extend(getattr(part, name))

@@ -38,7 +38,8 @@ class Window(NamedTuple):
 
     Attributes:
         part: Its path.
-        phases: Its law, `Phase` by `Phase`, ways counted from its start as those of the path.
+        phases: Its law, `Phase` by `Phase`, ways counted from its start as those of the path. At rests there are ones
+            that last no time.
         stops: Whether the axes rest at its end.
     """
 
@@ -75,15 +76,16 @@ class Windows:
     Args:
         axes: Limits.
         take: Gets the windows.
+        room: In which their laws are found, one after another.
         speed: Of the motion in which the first leg begins.
     """
 
-    def __init__(self, axes: Axes, take: Callable[[Window], object], speed: float = 0.0) -> None:
+    def __init__(self, axes: Axes, take: Callable[[Window], object], room: Room, speed: float = 0.0) -> None:
         self._axes, self._take = axes, take
         self._parts: deque[Part] = deque()
         self._first = (speed, 0.0)
         self._law: _Law | None = None
-        self._room = Room()
+        self._room = room
         self._end: float | None = None
         build = max(pull / jerk for pull, jerk in zip(axes.pull, axes.jerk, strict=True))
         stop = max(speed / pull for speed, pull in zip(axes.speed, axes.pull, strict=True))
@@ -165,7 +167,9 @@ class Windows:
         if found is None:
             return False
         length, last = self._parts[0].way[-1] - start.way, final and len(self._parts) == 1
-        window = _cut(found.phases, 0.0, inf if last else length, -start.way, start.begun)
+        window = found.phases
+        if not last or start.way > 0.0:
+            window = _cut(window, 0.0, inf if last else length, -start.way, start.begun)
         self._law = _Law(found, length, course.way[-1], final)
         self._give(window, last)
         return True
@@ -200,6 +204,8 @@ class _Joined:
     def course(self, start: float) -> Course:
         """The path from a way on, its ways counted from there."""
         first, *others = self._parts
+        if start == 0.0 and not others and self.is_whole:  # its arrays but for the one that the law changes
+            return course_of(first.way, first.first, first.second, first.cap2[:], first.ease)
         n, way = len(first.first) // len(first.way), array("d", first.way)
         p = bisect_right(way, start) - 1
         if way[p + 1] - start < SLIVER * (way[p + 1] - way[p]):

@@ -7,16 +7,19 @@ from math import pi
 
 import pytest
 
-from polycnc.motion.third_order.bends.turning import FULL, SHARE, Turning, reach, sum_turning
+from polycnc.motion.third_order.bends.stretches import curve_lines
+from polycnc.motion.third_order.bends.turning import FULL, SHARE, Turning, measure, reach, sum_turning
+from polycnc.motion.third_order.parts import turning_for
 from tests.motion.third_order.programmed import Bounds
 from tests.motion.third_order.programmed_paths import Drawn
 
 
 def turning_of(drawn: Drawn) -> Turning:
-    path = drawn.path.path
-    room = [array("d", bytes(8 * len(path.way))) for _ in range(3)]
-    turning = Turning(room[0], room[1], room[2], array("d", (1.0,)) * len(path.form))
-    sum_turning(path, 4, turning)
+    path, smooth = drawn.path.path, array("q", bytes(8 * len(drawn.path.path.way)))
+    turning = turning_for(len(path.form))
+    curve_lines(path, 4, smooth)
+    measure(path, 4, smooth, turning)
+    sum_turning(path, turning)
     return turning
 
 

@@ -12,6 +12,7 @@ from polycnc.motion import Settings
 from polycnc.motion.kernels.columns import Form, PieceRecord, piece_width
 from polycnc.motion.planner import Planner
 from polycnc.motion.third_order.laying import leading
+from polycnc.motion.third_order.parts import part_of
 from polycnc.motion.third_order.runs import RunPlanner
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.context import Pace
@@ -41,13 +42,13 @@ class Runs:
         noted = self.runs
 
         class Noted(RunPlanner):
-            def take(self, chunk: Stretches) -> None:
-                noted[-1].append(chunk)
-                super().take(chunk)
+            def take(self, chunk: Stretches, *, closed: bool = False) -> None:
+                noted[-1].append(part_of(chunk, 0, len(chunk.form)))
+                super().take(chunk, closed=closed)
 
-        def begun(*args: object) -> Noted:
+        def begun(*args: object, **named: object) -> Noted:
             noted.append([])
-            return Noted(*args)  # type: ignore[arg-type]
+            return Noted(*args, **named)  # type: ignore[arg-type]
 
         monkeypatch.setattr(leading, "RunPlanner", begun)
 

@@ -5,6 +5,7 @@
     turning     how much the path turns, and how far apart knots may be for it
     knots       where they lie
     controls    the spline by its control points, and by place, q' and q'' at its knots
+    keeping     what one round leaves to the next
     levelling   what short lines leave of the tolerance
     within      whether it is kept
     seams       where parts that are bent by themselves go over into each other

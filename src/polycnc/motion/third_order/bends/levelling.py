@@ -11,7 +11,6 @@ from math import sqrt
 
 from polycnc.motion.third_order.bends.controls import Spline, knot, shape_knot
 from polycnc.motion.third_order.bends.stretches import Stretches, tolerance_of, turn_tolerance_of
-from polycnc.motion.third_order.bends.within import off
 
 #: Part of the tolerance that is used; largest part of the bow; times that control points are moved.
 USED, MOST, TIMES = 0.98, 1.5, 5
@@ -41,17 +40,17 @@ def choose(spline: Spline, pieces: int) -> int:
     found = 0
     for k in range(1, pieces):
         nearest = min(spline.way[k] - spline.way[k - 1], spline.way[k + 1] - spline.way[k])
-        if nearest < HAS_ROOM * spline.room[k]:
+        if spline.kept[k] == 0 and nearest < HAS_ROOM * spline.room[k]:
             spline.moving[found], spline.moved[k] = k, 0.0
             found += 1
     return found
 
 
 def move_on(path: Stretches, n: int, spline: Spline, pieces: int, e: int, k: int) -> None:
-    """Move the control point of knot k on, at a corner before stretch e."""
+    """Move the control point of knot k on, which lies at the corner before stretch e."""
     line2, turn = 0.0, 0.0
     for i in range(n):
-        apart, _ = off(path, n, spline, e, k, spline.way[k], i)
+        apart = spline.place[k * n + i] - path.place[e * n + i]
         if path.rotary[i] != 0.0:
             turn = max(turn, abs(apart))
         else:

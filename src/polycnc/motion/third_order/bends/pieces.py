@@ -98,26 +98,38 @@ def cut_pieces(
 def find_cuts(path: Stretches, spline: Spline, first: int, last: int) -> int:
     """Write the ways at which pieces are cut into `moved`; their number, -1 where there is no room."""
     e, end, cuts, room = 0, len(path.form) - 1, 0, len(spline.moved) - 8
+    bounded = bounds_corners(path)
     for k in range(first, last):
         while e < end and path.way[e + 1] <= spline.way[k]:
             e += 1
         low, high, ease, other = path.cap2[e], path.cap2[e], path.ease[e], e
-        cuts = cut_around(path, spline, k, e, 1.0, cuts)
+        if bounded:
+            cuts = cut_around(path, spline, k, e, 1.0, cuts)
         while other < end and path.way[other + 1] < spline.way[k + 1]:
             way, other = path.way[other + 1], other + 1
-            cuts = cut_around(path, spline, k, other, -1.0, cuts)
+            if bounded:
+                cuts = cut_around(path, spline, k, other, -1.0, cuts)
             low, high = min(low, path.cap2[other]), max(high, path.cap2[other])
             if high > ALIKE * low or path.ease[other] != ease:
                 low, high, ease = path.cap2[other], path.cap2[other], path.ease[other]
                 cuts = cut_at(spline, k, way, cuts)
-            cuts = cut_around(path, spline, k, other, 1.0, cuts)
+            if bounded:
+                cuts = cut_around(path, spline, k, other, 1.0, cuts)
             if cuts > room:
                 return -1
-        if other < end:
+        if bounded and other < end:
             cuts = cut_around(path, spline, k, other + 1, -1.0, cuts)
         if cuts > room:
             return -1
     return cuts
+
+
+def bounds_corners(path: Stretches) -> bool:
+    """Whether anything bounds the speed at corners."""
+    for e in range(len(path.form)):  # noqa: SIM110 - kernels have no generators
+        if path.step2[e] < inf or path.spread2[e] < inf:
+            return True
+    return False
 
 
 def cut_at(spline: Spline, k: int, way: float, cuts: int) -> int:
@@ -163,20 +175,21 @@ def put_knot(spline: Spline, n: int, k: int, to: int, way: float) -> None:
 
 def bound_pieces(path: Stretches, n: int, spline: Spline, count: int, pieces: Pieces) -> None:
     """Set caps, ease and row of every piece."""
-    e, last = 0, len(path.form) - 1
+    e, last, bounded = 0, len(path.form) - 1, bounds_corners(path)
     for k in range(count):
         start, end = spline.way[k], spline.way[k + 1]
         while e < last and path.way[e + 1] <= start:
             e += 1
         pieces.row[k] = path.row[e]
         cap2, ease, corner2, other = path.cap2[e], path.ease[e], pieces.corner2[k], e
-        if e > 0:
+        if bounded and e > 0:
             corner2 = min(corner2, corner_cap2(path, e, start, end))
         while other < last and path.way[other + 1] < end:
             other += 1
             cap2, ease = min(cap2, path.cap2[other]), min(ease, path.ease[other])
-            corner2 = min(corner2, corner_cap2(path, other, start, end))
-        if other < last:
+            if bounded:
+                corner2 = min(corner2, corner_cap2(path, other, start, end))
+        if bounded and other < last:
             corner2 = min(corner2, corner_cap2(path, other + 1, start, end))
         pieces.ease[k], pieces.corner2[k] = ease, corner2
         pieces.cap2[k] = axes_cap2(path, n, spline, k, min(cap2, corner2))
@@ -198,17 +211,17 @@ def axes_cap2(path: Stretches, n: int, spline: Spline, k: int, cap2: float) -> f
 
     On the piece q' is quadratic and stays within the hull of its three Bézier points.
     """
-    half, longest2, least = 0.5 * (spline.way[k + 1] - spline.way[k]), 1.0, inf
+    half, longest2, least2 = 0.5 * (spline.way[k + 1] - spline.way[k]), 1.0, cap2
     start2, middle2, end2 = 0.0, 0.0, 0.0
     for i in range(n):
         q = k * n + i
         start, end = spline.first[q], spline.first[q + n]
         middle = start + half * spline.second[q]
         most = max(abs(start), abs(middle), abs(end))
-        if most > 0.0:
-            least = min(least, path.top[i] / most)
+        if most * most * least2 > path.top[i] * path.top[i]:
+            least2 = (path.top[i] / most) ** 2
         if path.rotary[i] == 0.0:
             start2, middle2 = start2 + start * start, middle2 + middle * middle
             end2 += end * end
     longest2 = max(longest2, start2, middle2, end2)
-    return min(cap2 / longest2, least * least)
+    return min(cap2 / longest2, least2)

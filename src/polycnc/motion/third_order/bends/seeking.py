@@ -6,9 +6,10 @@ from math import sqrt
 
 from polycnc.kernels.layout import Floats, Ints
 from polycnc.motion.third_order.bends.controls import Spline, lay_controls, shape
+from polycnc.motion.third_order.bends.keeping import forget
 from polycnc.motion.third_order.bends.seams import BESIDES, SIDE
 from polycnc.motion.third_order.bends.stretches import Stretches, curve_lines, length_of
-from polycnc.motion.third_order.bends.turning import Turning, reach, sum_turning, weigh_evenly
+from polycnc.motion.third_order.bends.turning import Turning, measure, reach, sum_turning
 from polycnc.motion.third_order.bends.within import most_used
 
 #: On a straight line knots of a seam are apart by this part of it: there they bend nothing. Elsewhere by this part of
@@ -48,8 +49,8 @@ def find_seam(
     """
     n, e = len(path.rotary), low
     curve_lines(path, n, smooth)
-    weigh_evenly(turning, len(path.form))
-    sum_turning(path, n, turning)
+    measure(path, n, smooth, turning)
+    sum_turning(path, turning)
     for k in range(low, high):
         if length_of(path, k) > length_of(path, e):
             e = k
@@ -130,6 +131,7 @@ def used_by(path: Stretches, n: int, spline: Spline, way: float, apart: float, o
     for k in range(2):
         beyond = (SIDE + (2 - k) * outer) * apart
         spline.way[k], spline.way[pieces - k] = way - beyond, way + beyond
+    forget(spline, pieces)
     lay_controls(path, n, spline, pieces)
     shape(spline, n, pieces)
     return most_used(path, n, spline, 1, pieces - 1)

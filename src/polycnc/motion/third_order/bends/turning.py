@@ -11,8 +11,8 @@ from __future__ import annotations
 from math import inf
 
 from polycnc.deferred.named_tuples import NamedTuple
-from polycnc.kernels.layout import Floats
-from polycnc.motion.third_order.bends.stretches import Stretches, between
+from polycnc.kernels.layout import Floats, Ints
+from polycnc.motion.third_order.bends.stretches import ARC, Stretches, between
 
 #: M at which the tolerance is used up, the share of it that is, and part of it to which that is met.
 FULL, SHARE, EXACT = 6.0, 0.985, 0.01
@@ -23,30 +23,35 @@ class Turning(NamedTuple):
     """Turning of a path in tolerances: its sum up to each of the m + 1 ends, before and behind the turn there.
 
     `area` is its integral up to there; `weight` is a factor for each of the m stretches, by which its turning counts.
+    `joint` is what q' turns by where each of them begins, `own` what it does along it, as they are.
     """
 
     before: Floats
     behind: Floats
     area: Floats
     weight: Floats
+    joint: Floats
+    own: Floats
 
 
-def weigh_evenly(turning: Turning, count: int) -> None:
-    """Let the turning of so many stretches count as it is."""
-    for e in range(count):
+def measure(path: Stretches, n: int, smooth: Ints, turning: Turning) -> None:
+    """Find what a path turns by; `smooth` is what `curve_lines` makes of it. All of it counts as it is."""
+    for e in range(len(path.form)):
         turning.weight[e] = 1.0
+        turning.joint[e] = 0.0 if e == 0 or smooth[e] != 0 else between(path, e - 1, e, n, False)
+        is_line = path.form[e] != ARC and smooth[e] == 0 and smooth[e + 1] == 0
+        turning.own[e] = 0.0 if is_line else between(path, e, e, n, True)
 
 
-def sum_turning(path: Stretches, n: int, turning: Turning) -> None:
-    """Fill in the sums of the turning of a path."""
+def sum_turning(path: Stretches, turning: Turning) -> None:
+    """Fill in the sums of the turning of a path that is measured."""
     total, area, count = 0.0, 0.0, len(path.form)
     for e in range(count):
         turning.before[e] = total
         if e > 0:
-            weight = max(turning.weight[e - 1], turning.weight[e])
-            total += weight * between(path, e - 1, e, n, False)
+            total += max(turning.weight[e - 1], turning.weight[e]) * turning.joint[e]
         turning.behind[e], turning.area[e] = total, area
-        own = turning.weight[e] * between(path, e, e, n, True)
+        own = turning.weight[e] * turning.own[e]
         area += (path.way[e + 1] - path.way[e]) * (total + 0.5 * own)
         total += own
     turning.before[count] = turning.behind[count] = total

@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import sqrt
 
 from polycnc.kernels.layout import Floats
-from polycnc.motion.third_order.bends.controls import Spline
+from polycnc.motion.third_order.bends.controls import Spline, is_kept
 from polycnc.motion.third_order.bends.seams import first_piece, pieces_behind
 from polycnc.motion.third_order.bends.stretches import LINE, Stretches, tolerance_of, turn_tolerance_of
 from polycnc.motion.third_order.bends.turning import Turning
@@ -25,7 +25,7 @@ def weigh_excess(
 ) -> int:
     """Let the turning count more around places where the path is left by more than its tolerance; their number.
 
-    Only between the seams. `number` is that of the round, from 0 on.
+    Only between the seams, and not where all is as in the round before. `number` is that of the round, from 0 on.
     """
     e, k, last, found = 0, first_piece(seams), len(path.form) - 1, 0
     raised, behind = -1, pieces - pieces_behind(seams)
@@ -33,7 +33,7 @@ def weigh_excess(
     while path.way[e + 1] <= start:
         e += 1
     while k < behind:
-        if is_sure(spline, pieces, k):
+        if is_sure(spline, pieces, k) or is_kept(spline, pieces, k - 1, k + 2):
             k += 1
             start = spline.way[k]
             while e < last and path.way[e + 1] <= start:
@@ -46,6 +46,7 @@ def weigh_excess(
             used = part_used(path, n, spline, e, k, start, end)
             if used > 1.0:
                 found += 1
+                spline.kept[k] = spline.kept[k + 1] = -1
                 factor = MORE + STUBBORN * number * number + RATE * (number + 1.0) * (used - 1.0)
                 factor = min(factor, MOST)
                 raised = raise_weights(path, spline, pieces, turning, e, k, factor, raised)
@@ -82,12 +83,13 @@ def most_used(path: Stretches, n: int, spline: Spline, first: int, end: int) -> 
 
 def part_used(path: Stretches, n: int, spline: Spline, e: int, k: int, start: float, end: float) -> float:
     """Which part of the tolerance is used at most from one way to another, both on stretch e and piece k."""
-    third = (end - start) / 3.0
+    third, per_mm = (end - start) / 3.0, 1.0 / (path.way[e + 1] - path.way[e])
+    per_piece = 1.0 / (spline.way[k + 1] - spline.way[k])
     a, b, c, d = 0.0, 0.0, 0.0, 0.0
     turn = 0.0
     for i in range(n):
-        first, rate = off(path, n, spline, e, k, start, i)
-        last, end_rate = off(path, n, spline, e, k, end, i)
+        first, rate = off(path, n, spline, e, k, start, i, per_mm, per_piece)
+        last, end_rate = off(path, n, spline, e, k, end, i, per_mm, per_piece)
         second, fourth = first + third * rate, last - third * end_rate
         if path.rotary[i] != 0.0:
             turn = max(turn, abs(first), abs(second), abs(fourth), abs(last))
@@ -97,22 +99,34 @@ def part_used(path: Stretches, n: int, spline: Spline, e: int, k: int, start: fl
     return max(sqrt(max(a, b, c, d)) / tolerance_of(path, e), turn / turn_tolerance_of(path, e))
 
 
-def off(path: Stretches, n: int, spline: Spline, e: int, k: int, way: float, i: int) -> tuple[float, float]:
-    """Place of axis i on piece k less that on stretch e, at a way, and its derivative; a line counts as one."""
-    t, h = way - spline.way[k], spline.way[k + 1] - spline.way[k]
-    q = k * n + i
-    second, third = spline.second[q], (spline.second[q + n] - spline.second[q]) / h
+def off(
+    path: Stretches,
+    n: int,
+    spline: Spline,
+    e: int,
+    k: int,
+    way: float,
+    i: int,
+    per_mm: float,
+    per_piece: float,
+) -> tuple[float, float]:
+    """Place of axis i on piece k less that on stretch e, at a way, and its derivative; a line counts as one.
+
+    `per_mm` and `per_piece` are one over the length of the stretch and of the piece.
+    """
+    t, q = way - spline.way[k], k * n + i
+    second, third = spline.second[q], (spline.second[q + n] - spline.second[q]) * per_piece
     place = spline.place[q] + t * (spline.first[q] + t * (0.5 * second + t * third / 6.0))
     first = spline.first[q] + t * (second + 0.5 * t * third)
-    length = path.way[e + 1] - path.way[e]
-    f, start = (way - path.way[e]) / length, path.place[e * n + i]
+    f, start = (way - path.way[e]) * per_mm, path.place[e * n + i]
     chord = path.place[e * n + n + i] - start
     there, rate = start + f * chord, chord
     if path.form[e] != LINE:
+        length = path.way[e + 1] - path.way[e]
         leave, arrive = path.leave[e * n + i] * length - chord, path.arrive[e * n + i] * length - chord
         there += f * (1.0 - f) * ((1.0 - f) * leave - f * arrive)
         rate += (1.0 - f) * (1.0 - 3.0 * f) * leave + f * (3.0 * f - 2.0) * arrive
-    return place - there, first - rate / length
+    return place - there, first - rate * per_mm
 
 
 def raise_weights(

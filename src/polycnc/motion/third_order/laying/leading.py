@@ -16,7 +16,7 @@ from polycnc.motion.third_order.laws.records import NEAR, RowEnds, Track, Walk
 from polycnc.motion.third_order.laying.room import RunRoom, axes_of
 from polycnc.motion.third_order.laying.rows import NO_STRETCH, ROW_ENDS, RUN_ENDS
 from polycnc.motion.third_order.parts import whole
-from polycnc.motion.third_order.runs import RunPlanner
+from polycnc.motion.third_order.runs import Rooms, RunPlanner
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -75,6 +75,7 @@ class LawRuns:
         #: The row of each stretch that is handed on, but for those of rows that have ended in a window.
         self._rows = array("q")
         self._planner: RunPlanner | None = None
+        self._rooms = Rooms()
         #: The first row of a run, for which the next chunk may come before it is known what it is.
         self._row: tuple[Rows, array[float]] | None = None
 
@@ -136,10 +137,10 @@ class LawRuns:
     def _hand_on(self, limits: Limits, *, left: int) -> RunPlanner:
         """Hand all stretches on but so many, which the next row may meet."""
         if self._planner is None:
-            self._planner = RunPlanner(axes_of(limits), self._note)
+            self._planner = RunPlanner(axes_of(limits), self._note, rooms=self._rooms)
         taken = self.room.cut_off(left)
         self._rows.extend(cast("array[int]", taken.row))
-        self._planner.take(taken)
+        self._planner.take(taken, closed=left == 0)
         return self._planner
 
     def _note(self, window: Window) -> None:

@@ -9,8 +9,7 @@ from polycnc.motion.kernels.columns import new_state
 from polycnc.motion.third_order.bends.stretches import Stretches
 from polycnc.motion.third_order.laws.courses import Axes
 from polycnc.motion.third_order.laying.rows import RunLaid
-from polycnc.motion.third_order.parts import numbers, whole
-from polycnc.motion.third_order.runs import SINGLE
+from polycnc.motion.third_order.parts import numbers, part_of, whole
 
 if TYPE_CHECKING:
     from polycnc.motion.kernels.columns import Limits
@@ -66,11 +65,13 @@ class RunRoom:
 
     def cut_off(self, left: int) -> Stretches:
         """Take the stretches out but so many of the last ones."""
-        n, path, count = len(self.path.rotary), self.path, self.laid.stretches
+        path, count = self.path, self.laid.stretches
         end = count - left
-        taken, kept = _part(path, 0, end, n), _part(path, end, count, n)
-        for column, values in zip(_columns(path)[:-2], _columns(kept)[:-2], strict=True):
-            column[: len(values)] = values
+        taken = part_of(path, 0, end)
+        if left > 0:
+            kept = part_of(path, end, count)
+            for column, values in zip(_columns(path)[:-2], _columns(kept)[:-2], strict=True):
+                column[: len(values)] = values
         self.laid.stretches = left
         return taken
 
@@ -115,17 +116,6 @@ def _room(count: int, n: int) -> Stretches:
         row=whole(count),
         rotary=numbers(n),
         top=numbers(n),
-    )
-
-
-def _part(path: Stretches, first: int, end: int, n: int) -> Stretches:
-    """The stretches from one to before another; their ways go on."""
-    return path._replace(
-        way=path.way[first : end + 1],
-        place=path.place[first * n : (end + 1) * n],
-        leave=path.leave[first * n : end * n],
-        arrive=path.arrive[first * n : end * n],
-        **{name: getattr(path, name)[first:end] for name in SINGLE},
     )
 
 
