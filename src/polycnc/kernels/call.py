@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 #: So many calls hand their arguments on one by one before that is written out for a kernel: it makes each faster by a
 #: third, and takes as long as some hundred calls.
-_FEW = 512
+_FEW = 128
 #: What stands in the block for each, as `struct` names it: an array is its address and its length.
 _FORMS, _ARRAY = {TEXT: "Qq", RECORD: "Q", INTEGER: "q", NUMBER: "d"}, "Qq"
 _BRACKETS = str.maketrans("", "", "()")
