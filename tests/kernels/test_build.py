@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import platform
 import re
 import subprocess
@@ -34,6 +35,23 @@ def test_every_library_of_polycnc_is_compiled() -> None:
 def test_no_two_kernels_have_one_name() -> None:
     names = [name for library in shared_object.libraries() for name in library.names]
     assert len(names) == len(set(names))
+
+
+def test_no_kernel_raises_to_a_whole_power() -> None:
+    """Machine code makes products of it, Python asks `pow`, which rounds otherwise now and then."""
+    files = {
+        Path(module.__file__ or "") for library in shared_object.libraries() for module in library.modules
+    }
+    found = [
+        f"{file.name}: {ast.unparse(node)}"
+        for file in sorted(files)
+        for function in ast.parse(file.read_text(encoding="utf-8")).body
+        if isinstance(function, ast.FunctionDef)
+        for node in ast.walk(function)
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow)
+        if isinstance(node.right, ast.Constant) and isinstance(node.right.value, int)
+    ]
+    assert found == []
 
 
 def test_only_libraries_whose_sources_have_changed_are_compiled_again(

@@ -6,10 +6,10 @@ order take, `ctypes` needs as long as their machine code for five rows of a cont
 
 from __future__ import annotations
 
+from _struct import Struct
 from array import array
 from itertools import accumulate, chain
 from operator import attrgetter, itemgetter
-from struct import Struct
 
 from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.kernels.c_types import Pointer, addressof, place_of

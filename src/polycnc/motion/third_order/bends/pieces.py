@@ -219,7 +219,8 @@ def axes_cap2(path: Stretches, n: int, spline: Spline, k: int, cap2: float) -> f
         middle = start + half * spline.second[q]
         most = max(abs(start), abs(middle), abs(end))
         if most * most * least2 > path.top[i] * path.top[i]:
-            least2 = (path.top[i] / most) ** 2
+            fastest = path.top[i] / most
+            least2 = fastest * fastest
         if path.rotary[i] == 0.0:
             start2, middle2 = start2 + start * start, middle2 + middle * middle
             end2 += end * end

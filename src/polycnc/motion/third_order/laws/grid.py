@@ -33,8 +33,8 @@ def estimate(course: Course, axes: Axes, ends: Floats, m: int) -> None:
     """Caps of the first m pieces, and the estimate of second order at their knots."""
     for k in range(m):
         course.low2[k] = own_cap(course, axes, k)
-    course.x[0] = ends[Ends.START_SPEED] ** 2
-    course.x[m] = ends[Ends.END_SPEED] ** 2
+    course.x[0] = ends[Ends.START_SPEED] * ends[Ends.START_SPEED]
+    course.x[m] = ends[Ends.END_SPEED] * ends[Ends.END_SPEED]
     for k in range(1, m):
         course.x[k] = min(course.low2[k - 1], course.low2[k])
     for k in range(m - 1, 0, -1):

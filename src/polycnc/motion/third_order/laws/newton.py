@@ -79,14 +79,13 @@ def begin(
         part = (way - places[at]) / (places[at + 1] - places[at])
         nodes.x[k] = share * (squares[at] + part * (squares[at + 1] - squares[at]))
     # the control values at both ends, from which the spline has the speed and the acceleration there
-    nodes.x[0] = ends[Ends.START_SPEED] ** 2 + 0.5 * ends[Ends.START_PULL] * (nodes.way[1] - nodes.way[0])
-    nodes.x[last] = ends[Ends.END_SPEED] ** 2 - 0.5 * ends[Ends.END_PULL] * (
-        nodes.way[last] - nodes.way[last - 1]
-    )
+    start, end = ends[Ends.START_SPEED], ends[Ends.END_SPEED]
+    nodes.x[0] = start * start + 0.5 * ends[Ends.START_PULL] * (nodes.way[1] - nodes.way[0])
+    nodes.x[last] = end * end - 0.5 * ends[Ends.END_PULL] * (nodes.way[last] - nodes.way[last - 1])
     for k in range(1, last):
-        if ends[Ends.START_SPEED] == 0.0:
+        if start == 0.0:
             _from_rest(nodes, axes, k, 1, nodes.way[k] - nodes.way[0], share)
-        if ends[Ends.END_SPEED] == 0.0:
+        if end == 0.0:
             _from_rest(nodes, axes, k, last - 1, nodes.way[last] - nodes.way[k], share)
         nodes.x[k] = max(nodes.x[k], 1e-15)
 

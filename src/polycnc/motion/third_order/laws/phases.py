@@ -305,8 +305,8 @@ def _used(
     way2 = way + time * (speed + time * (0.5 * pull + time * jerk / 6.0))
     hard = abs(jerk)
     most_pull, eighth = max(abs(pull), abs(pull2)), 0.125 * time * time
-    fast = max(speed, speed2) + eighth * hard
-    high, high_a = max(speed, speed2) ** 2 * top, 0.0
+    fast, pulls = max(speed, speed2) + eighth * hard, most_pull * most_pull
+    high, high_a = max(speed * speed, speed2 * speed2) * top, 0.0
     ease, high_j, bound_a, bound_j = course.ease[p], 0.0, 0.0, 0.0
     for i in range(n):
         first, second, third = course.first[p * n + i], course.second[p * n + i], course.third[p * n + i]
@@ -317,7 +317,7 @@ def _used(
         used = max(abs(turn * pull + bend * speed * speed), abs(turn2 * pull2 + bend2 * speed2 * speed2))
         bent, twist = max(abs(bend), abs(bend2)), abs(third)
         more = eighth * (
-            4.0 * bent * fast * hard + 3.0 * bent * most_pull**2 + 6.0 * twist * fast**2 * most_pull
+            4.0 * bent * fast * hard + 3.0 * bent * pulls + 6.0 * twist * fast * fast * most_pull
         )
         part = 1.0 / (ease * axes.pull[i])
         high_a, bound_a = max(high_a, used * part), max(bound_a, (used + more) * part)
@@ -325,9 +325,7 @@ def _used(
             abs(turn * jerk + speed * (3.0 * bend * pull + third * speed * speed)),
             abs(turn2 * jerk + speed2 * (3.0 * bend2 * pull2 + third * speed2 * speed2)),
         )
-        more = eighth * (
-            twist * fast * (10.0 * fast * hard + 15.0 * most_pull**2) + 10.0 * bent * most_pull * hard
-        )
+        more = eighth * (twist * fast * (10.0 * fast * hard + 15.0 * pulls) + 10.0 * bent * most_pull * hard)
         part = 1.0 / (ease * axes.jerk[i])
         high_j, bound_j = max(high_j, used * part), max(bound_j, (used + more) * part)
     return fast * fast * top, bound_a, bound_j, high, high_a, high_j

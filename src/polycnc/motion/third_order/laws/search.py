@@ -190,12 +190,13 @@ def _stretch(phases: Floats, most: Floats) -> None:
         slower = max(slower, sqrt(max(most[3 * k], most[3 * k + 1])), most[3 * k + 2] ** (1.0 / 3.0))
     if slower <= 1.0:
         return
+    square = slower * slower
     for k in range(len(phases) // Phase.SIZE):
         phases[k * Phase.SIZE + Phase.TIME] *= slower
         phases[k * Phase.SIZE + Phase.SPEED] /= slower
-        phases[k * Phase.SIZE + Phase.PULL] /= slower**2
-        phases[k * Phase.SIZE + Phase.JERK] /= slower**3
+        phases[k * Phase.SIZE + Phase.PULL] /= square
+        phases[k * Phase.SIZE + Phase.JERK] /= square * slower
     for k in range(len(phases) // Phase.SIZE):
-        most[3 * k] /= slower**2
-        most[3 * k + 1] /= slower**2
-        most[3 * k + 2] /= slower**3
+        most[3 * k] /= square
+        most[3 * k + 1] /= square
+        most[3 * k + 2] /= square * slower
