@@ -119,13 +119,16 @@ def move_words(channel: Channel, axes: Iterable[int]) -> list[str]:
 
 
 def may_refuse_moves(channel: Channel) -> bool:
-    """Whether the machine refuses a move along some axis now, or may do so while the axes move."""
+    """Whether the machine refuses a move along some axis now, may do so while axes move, or sets outputs as they do."""
     signals = MachineSignals.of(channel).known
     plc = plc_of(channel)
     if signals is None or not plc.moves:
         return False
     words = plc.moves.intersection(move_words(channel, range(len(channel.axes))))
-    return any(plc.signals_of(word) & STATES.keys() or refusal(channel, word, signals) for word in words)
+    return any(
+        plc.sets(word) or plc.signals_of(word) & STATES.keys() or refusal(channel, word, signals)
+        for word in words
+    )
 
 
 def refusal(channel: Channel, word: str, signals: dict[str, float]) -> PlcAlarm | None:

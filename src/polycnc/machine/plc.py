@@ -103,6 +103,7 @@ class Plc:
         standing: The rows without a word.
         asked: The signals in conditions of alarms.
         moves: The words of moves that any row answers to.
+        refusing: The signals on which it depends whether some word is refused.
     """
 
     def __init__(self, rules: Iterable[Rule] = (), alarms: Iterable[PlcAlarm] = ()) -> None:
@@ -119,6 +120,9 @@ class Plc:
             for word in filter(is_word, signals_in(rule.when)) if rule.latch else ():
                 self._latches.setdefault(word, []).append(rule)
 
+        self.refusing = frozenset(
+            name for rows in self._refusals.values() for row in rows for name in row.signals
+        )
         self.moves = frozenset(word for word in (*self._refusals, *self._latches) if word.startswith("MOVE_"))
 
     def signals_of(self, word: str) -> frozenset[str]:
@@ -129,9 +133,15 @@ class Plc:
         """Whether any row answers to a word."""
         return word in self._refusals or word in self._latches
 
-    def may_refuse(self, word: str) -> bool:
-        """Whether a row refuses a word in some state."""
-        return word in self._refusals
+    def matters(self, word: str) -> bool:
+        """Whether a row refuses a word in some state, or the word sets an output that refuses others."""
+        return word in self._refusals or any(
+            rule.output in self.refusing for rule in self._latches.get(word, ())
+        )
+
+    def sets(self, word: str) -> bool:
+        """Whether a latching rule answers to a word."""
+        return word in self._latches
 
     def refusal(self, word: str, value: Values) -> PlcAlarm | None:
         """The row that refuses a word in the state that `value` tells; None where it is carried out."""

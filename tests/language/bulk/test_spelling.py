@@ -43,6 +43,17 @@ def test_blocks_that_are_left_out_are_passed_by_the_scanner() -> None:
     assert scanned(text, "fanuc-m", {"switches": {"block_skip": True}}) >= BLOCKS - 8
 
 
+@pytest.mark.parametrize("control_id", ["fanuc-m", "meldas-m", "syntec-mill", "fanuc-0i-tf"])
+@pytest.mark.parametrize(
+    "block", ["O5", "O5 X1.", "X[1.", "X[#1+*2.]", "X[1. 2.]", "#1=", "#1=2.+", "#1=[3.", "#1=1. 2."]
+)
+def test_what_is_wrong_in_a_block_that_is_left_out_alarms_both_ways(control_id: str, block: str) -> None:
+    head = HEADS.get(control_id, "G98 G1 X0 Z0 F100.\n")
+    text = head + "X1.\nX2.\n/X3.\n" + f"/{block}\nX4.\n/2 {block}\nX5.\nM30\n"
+    for switches in ({}, {"switches": {"block_skip": True}}, {"switches": {"block_skip": [2]}}):
+        assert differences(text, control_id, switches) == []
+
+
 @pytest.mark.parametrize("mark", ["N@/", "N@ /2 ", "N@ / "])
 def test_a_mark_behind_the_block_number(mark: str) -> None:
     text = program("fanuc-m", mark + "G1 X@. Y1.5")

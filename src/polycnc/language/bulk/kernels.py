@@ -167,7 +167,10 @@ def read_block(tables: Tables, state: State) -> tuple[int, int]:
     else:
         place, node, is_block = read_words(text, tables.nexts, state, place, state.scan.root, 0, 0)
     if place >= 0 and levels & state.scan.skipped:
-        return (-1 if grammar & Grammar.BLANK_LINES_ARE_NONE else place), NO_BLOCK
+        if grammar & Grammar.BLANK_LINES_ARE_NONE:
+            return -1, 0
+        # What is wrong in a block that is left out is an alarm all the same: it is passed by once its shape is known.
+        return place, NO_BLOCK if tables.leaves[node] >= Leaf.FIRST_RULE else node
     return place, node if is_block or levels or is_numbered else NO_BLOCK
 
 

@@ -48,8 +48,8 @@ def guarded(row: MCode, plc: Plc) -> MCode:
             handler(channel, block)
 
     does_no_more = handler is None or (not isinstance(handler, Deferred) and declared(handler) is notes)
-    if does_no_more and not plc.may_refuse(word):
-        declare(act, notes)  # outputs change
+    if does_no_more and not plc.matters(word):
+        declare(act, notes)  # outputs change that refuse nothing
     return replace(row, handler=act)
 
 
@@ -81,7 +81,7 @@ def _guarded_speed(step: Step, builder: Builder, plc: Plc) -> Step:
     starts = [f"M{number}" for number in builder.m_codes if number in (3, 4)]
     act = asking(step, (*starts[-1:], "S_CODE"), plc)
     told = declared(step)
-    if not isinstance(told, Note) or starts or act is step:
+    if not isinstance(told, Note) or starts or act is step or plc.sets("S_CODE"):
         return act
     return declare(act, told._replace(condition=_lets_speeds_pass, step=step))
 
