@@ -74,6 +74,7 @@ from polycnc.motion.pole import (
     turn_records,
 )
 from polycnc.motion.reach import looked_at, shares_of
+from polycnc.motion.standing.positioning import placed_by_events
 from polycnc.motion.time_constants import Use, cut_use
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, CURVE_WIDTH, RAPID_KINDS
@@ -215,12 +216,15 @@ class RealAxes:
         if context.transformation is not self._context.transformation:
             self._on_path = self._carried(context)
             bounds.enters[moves[0]] = self._on_path
-        is_done = self._bounded(chunk, moves, context, bounds)
+        is_done, placed = self._bounded(chunk, moves, context, bounds), placed_by_events(chunk)
         for before, row in zip((-1, *moves), moves, strict=False):
             if is_done[row]:
                 continue
             if before >= 0 and is_done[before]:
                 self._on_path = self._end_of(chunk, before, context)
+            for event in sorted(each for each in placed if before < each <= row):
+                for column, place in placed.pop(event).items():
+                    self._on_path[column] = place
             self._row(chunk, row, context, bounds)
         if is_done[moves[-1]]:
             self._on_path = self._end_of(chunk, moves[-1], context)
