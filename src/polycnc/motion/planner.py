@@ -227,6 +227,8 @@ class Planner:
                 self._state.run.overlap = self._state.run.rapid_overlap = 0.0
             for column, place in places.get(edge, {}).items():
                 self._state.position[column] = place
+            if edge in bounds.placed:
+                self._state.position[:] = array("d", bounds.placed[edge])
             for entry in outlasting:
                 self._come_to_rest[entry.row] = self._averages(entry)
             if edge in switches:
