@@ -472,7 +472,7 @@ def _m_step(row: MCode, builder: Builder, plan: Plan, *, speed_follows: bool) ->
     """The step of an M code; `speed_follows`: an S of its block comes behind it.
 
     A spindle turns otherwise from the code's own event on, whatever the next block says. With an S behind it, it goes
-    to both at once.
+    to both at once; under constant surface speed the next move says to which speed.
     """
     handler = builder.handled(row.handler, plan) if row.handler else None
     if row.silent:
@@ -480,7 +480,7 @@ def _m_step(row: MCode, builder: Builder, plan: Plan, *, speed_follows: bool) ->
     code, takes = row.code, tuple(filter(builder.has, row.takes.split()))
     spindle = builder.control.spindle_slot(builder)
     plain = Auxiliary(code)
-    is_first = row.turns and not speed_follows
+    is_first = row.turns and not speed_follows and builder.mode.codes.get("surface_speed") != "G96"
 
     def act(channel: Channel, values: list[float]) -> None:
         if is_first and handler is not None:
