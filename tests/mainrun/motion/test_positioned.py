@@ -43,7 +43,7 @@ def program(*blocks: str, mode: str = "BRISK") -> str:
 @pytest.mark.parametrize("name", PROGRAMS)
 def test_plan_samples_and_main_run_are_one_motion(name: str) -> None:
     machine, *blocks = PROGRAMS[name]
-    indexed = {"parameters": INDEXED}
+    indexed: dict[str, object] = {"parameters": INDEXED}
     written = Writer(Random(0), "sinumerik-840d")
     written.machine, written.setup = ("mill4", indexed) if machine == "indexed" else (machine, {})  # type: ignore[misc]
     compare(program(*blocks), written)

@@ -450,8 +450,8 @@ class Builder:
             if key in m_rows:
                 row = m_rows[key]
                 speed_follows = not row.after and "S" in self.order[self.order.index(key) :]
-                step = _m_step(row, self, plan, speed_follows=speed_follows)
-                (after if row.after else before).append(step)
+                act = _m_step(row, self, plan, speed_follows=speed_follows)
+                (after if row.after else before).append(act)
                 continue
             planner = meanings.get(key)
             if planner is not None:
