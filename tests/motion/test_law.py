@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polycnc.mainrun.motion.speed import ramp
 from polycnc.motion.law import Law, Phase
+from polycnc.motion.phases.speed import ramp
 
 ways = st.floats(0.1, 20.0)
 speeds = st.floats(1.0, 100.0)

@@ -8,7 +8,8 @@ same chunk by chunk while the toolpath grows.
                 rows at once; reach: how fast an arc gets from end to end), pole (through that of G12.1)
     planning    planner over `kernels/`, compiled or as they are (`compiled`), time_constants (what rapids and cuts run
                 by), plan, times
-    standing/   tool changes, spindle ramps, dwells
+    standing/   tool changes, spindle ramps, dwells, axes that are positioned beside the path
+    phases/     one axis, or one piece of the path, from any speed on
     time        explain (which limit held, for how long)
     motion      law (phases of constant jerk over time), averaging (limited jerk: from there to the axes)
     sampling/   where the axes are at even times

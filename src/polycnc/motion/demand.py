@@ -61,12 +61,14 @@ class Bounds(NamedTuple):
         feed: Factor on the feed of every row; empty where all are 1.
         enters: Rows at which the columns get another meaning, with the position of the path there: the axes stand.
         legs: Rows that lead through the pole, or begin or end there: they are laid as these legs instead.
+        placed: Position of the path from a row on, by its place in the chunk, where events say where real axes are.
     """
 
     shares: Shares
     feed: array[float]
     enters: dict[int, list[float]]
     legs: dict[int, list[PathLeg]]
+    placed: dict[int, list[float]]
 
     def paced(self, feed: array[float], rows: slice = slice(None)) -> array[float]:
         """The feeds of some rows as the program's overrides and rules leave them."""

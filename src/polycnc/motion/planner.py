@@ -10,7 +10,6 @@ chunks, and the cost stays in proportion to the rows.
 from __future__ import annotations
 
 from array import array
-from bisect import bisect_left
 
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.compiled import kernels, plain
@@ -19,6 +18,7 @@ from polycnc.motion.limits import ContextTables, averages, axis_rapids, is_bent_
 from polycnc.motion.pace import taps_as_overridden
 from polycnc.motion.settings import DEFAULT, Settings
 from polycnc.motion.standing.beside import Awaits, Beside
+from polycnc.motion.standing.positioning import PositionedAxes, places_of, rests_of
 from polycnc.motion.standing.waits import Waits, least_seconds
 from polycnc.motion.standing.zero_mark import lag_s
 from polycnc.motion.time_constants import Use, use_of, uses_of
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from polycnc.motion.kernels.columns import Limits, State
     from polycnc.motion.limits import AxisRapid
     from polycnc.motion.pole import PathLeg, Turn
-    from polycnc.motion.standing.beside import Step
+    from polycnc.motion.standing.beside import Begins, Step
     from polycnc.motion.standing.waits import Parallel
     from polycnc.motion.third_order.laying.leading import LawRuns
     from polycnc.toolpath import Context, Toolpath
@@ -115,6 +115,7 @@ class Planner:
         self._waits = Waits(machine, toolpath, tool, self._wait)
         self._waits.rapid_stops, self._waits.spindle_wait = settings.rapid_stops, settings.spindle_wait
         self._waits.step, self._beside = self._step, Beside(self._lag_of, self._settle_parallel)
+        self._waits.positioned = PositionedAxes(machine, channel, toolpath.axes, settings)
         self._final_row = 0  # rows before it are planned
         self.is_turning = False
         self._rests: set[int] = set()
@@ -212,7 +213,8 @@ class Planner:
         curves = taps_as_overridden(chunk) if self._settings.taps_overridden else chunk.curves
         whole = Rows(chunk.kind, chunk.context, feed, chunk.end, chunk.curve, stops, *bounds.shares)
         switches = self._switches(chunk) if self._uses.differ else {}
-        rests = {number - chunk.first for number in self._rests} | self._rests_of(chunk)
+        places = places_of(self._toolpath, chunk)
+        rests = {number - chunk.first for number in self._rests} | rests_of(self._toolpath, chunk) | {*places}
         self._rests.clear()
         beside = {entry.last + 1 - chunk.first for entry in self._waits.parallel if entry.last >= chunk.first}
         row = 0
@@ -223,8 +225,10 @@ class Planner:
             if outlasting or edge in rests:
                 self._rest()
                 self._state.run.overlap = self._state.run.rapid_overlap = 0.0
-            for column, place in self._toolpath.counts.get(chunk.first + edge, {}).items():
+            for column, place in places.get(edge, {}).items():
                 self._state.position[column] = place
+            if edge in bounds.placed:
+                self._state.position[:] = array("d", bounds.placed[edge])
             for entry in outlasting:
                 self._come_to_rest[entry.row] = self._averages(entry)
             if edge in switches:
@@ -237,11 +241,6 @@ class Planner:
                 row = edge + 1
         self._laid = self._next_row
         return True
-
-    def _rests_of(self, chunk: Chunk) -> set[int]:
-        """Rows of a chunk before which the axes rest because nothing was prepared beyond."""
-        rests, first, end = self._toolpath.rests, chunk.first, chunk.first + len(chunk)
-        return {row - first for row in rests[bisect_left(rests, first) : bisect_left(rests, end)]}
 
     def _outlasting(self, chunk: Chunk, edge: int, rows: Rows, enters: Enters) -> list[Parallel]:
         """The functions that outlast the motion of the block in front of a row: the axes rest at its end."""
@@ -299,6 +298,10 @@ class Planner:
         self._beside.note(step)
         if isinstance(step, Awaits) and step.rests:
             self._rests.add(step.row)
+
+    def tell_begins(self, tell: Callable[[Begins], None]) -> None:
+        """Have somebody told of what begins beside the axes, before pieces of rows behind it become final."""
+        self._beside.on_begin = tell
 
     @property
     def hidden_s(self) -> Mapping[str, float]:
@@ -453,8 +456,7 @@ class Planner:
         self._settle_parallel(self._next_row)
         return self._plan()
 
-    # ---- the buffer of pieces
-    # --------------------------------------------------------------------------------------
+    # ---- the buffer of pieces ------------------------------------------------------------------------------
 
     def _make_room(self) -> None:
         room = len(self._pieces) // self._width
@@ -529,8 +531,7 @@ class Planner:
                 del self._rows[:forgotten]
                 self._first_row = needed
 
-    # ---- rows and totals
-    # -------------------------------------------------------------------------------------------
+    # ---- rows and totals -----------------------------------------------------------------------------------
 
     def _add_contexts(self) -> None:
         for context in self._toolpath.contexts[len(self._slots) // 4 :]:

@@ -50,6 +50,7 @@ from polycnc.motion.frames import (
     path_of,
     real_of,
     real_rows,
+    with_axis,
     work_of,
 )
 from polycnc.motion.kernels.columns import AT_END, AT_START, SHARES, Limits, Rows
@@ -74,6 +75,7 @@ from polycnc.motion.pole import (
     turn_records,
 )
 from polycnc.motion.reach import looked_at, shares_of
+from polycnc.motion.standing.positioning import placed_by_events
 from polycnc.motion.time_constants import Use, cut_use
 from polycnc.toolpath import Context, Kind
 from polycnc.toolpath.kinds import ARC_KINDS, CCW_KINDS, CURVE_WIDTH, RAPID_KINDS
@@ -149,6 +151,7 @@ class RealAxes:
         self._turning = [axis is not None and axis.rotary for axis in self._axes]
         self._turned = [column for column, turns in enumerate(self._turning) if turns]
         self._left: tuple[Context, bool, list[tuple[int, AxisLimits]]] | None = None
+        self._placed: list[tuple[int, dict[int, float]]] = []
         #: The last row's context and where it led, as the row says it.
         self._behind: tuple[Context, list[float]] | None = None
 
@@ -185,7 +188,8 @@ class RealAxes:
 
     def bounds(self, chunk: Chunk, contexts: Sequence[Context]) -> Bounds:
         """Look at the rows of a chunk."""
-        bounds = Bounds(Shares(array("d"), array("d"), array("d")), array("d"), {}, {})
+        bounds = Bounds(Shares(array("d"), array("d"), array("d")), array("d"), {}, {}, {})
+        self._placed = sorted(placed_by_events(chunk).items())
         runs = chunk.context_runs()
         used = [contexts[number] for number in {number for number, _, _ in runs}]
         paced = any(context.pace is not None for context in used)
@@ -193,6 +197,8 @@ class RealAxes:
             for row in _last_move(chunk):
                 self._context = contexts[chunk.context[row]]
                 self._on_path = self._end_of(chunk, row, self._context)
+                self._placed = [each for each in self._placed if each[0] > row]
+            self._place(len(chunk), bounds)
             return bounds
         if paced or not LED_ALONE.issuperset(chunk.kind) or not all(map(self._needs_no_shares, used)):
             for column, free in zip(bounds.shares, FREE_SHARE, strict=True):
@@ -202,7 +208,20 @@ class RealAxes:
             moves = [row for row in range(first, last) if chunk.kind[row] < Kind.DWELL]
             if moves:
                 self._run(chunk, moves, contexts[number], bounds)
+        self._place(len(chunk), bounds)
         return bounds
+
+    def _is_placed(self, row: int) -> bool:
+        """Whether axes are elsewhere on the path from a row on."""
+        return bool(self._placed) and self._placed[0][0] <= row
+
+    def _place(self, row: int, bounds: Bounds) -> None:
+        """Real axes are elsewhere from a row on, by events before it."""
+        while self._is_placed(row):
+            number, places = self._placed.pop(0)
+            for column, place in places.items():
+                self._on_path = with_axis(self._on_path, self._context, self._geometry, column, place)
+            bounds.placed[number], self._behind = self._on_path, None
 
     def _needs_no_shares(self, context: Context) -> bool:
         """Whether the kernels find out themselves what bounds straight rows."""
@@ -212,15 +231,17 @@ class RealAxes:
 
     def _run(self, chunk: Chunk, moves: Sequence[int], context: Context, bounds: Bounds) -> None:
         """Look at moves of one context after each other."""
+        self._place(moves[0], bounds)
         if context.transformation is not self._context.transformation:
             self._on_path = self._carried(context)
             bounds.enters[moves[0]] = self._on_path
         is_done = self._bounded(chunk, moves, context, bounds)
         for before, row in zip((-1, *moves), moves, strict=False):
+            if before >= 0 and is_done[before] and (not is_done[row] or self._is_placed(row)):
+                self._on_path = self._end_of(chunk, before, context)
+            self._place(row, bounds)
             if is_done[row]:
                 continue
-            if before >= 0 and is_done[before]:
-                self._on_path = self._end_of(chunk, before, context)
             self._row(chunk, row, context, bounds)
         if is_done[moves[-1]]:
             self._on_path = self._end_of(chunk, moves[-1], context)

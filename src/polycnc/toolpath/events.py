@@ -262,7 +262,36 @@ class Deed(Event):
     stands: bool = False
 
     @property
+    def takes_effect_late(self) -> bool:
+        """Whether what is read behind it may be asked for in the next cycle only: not where axes say it at any time."""
+        return self.do is not None and not self.places
+
+    @property
     def data(self) -> dict[str, object]:
         """Word and number."""
         shown: dict[str, object] = {"what": self.what}
         return shown if self.number is None else {**shown, "number": self.number}
+
+
+@dataclass(frozen=True, slots=True)
+class AxesPositioned(Deed):
+    """Axes go to their `places` by themselves, beside what follows (POS, POSA, SPOS of SINUMERIK).
+
+    Attributes:
+        starts: Machine positions where they rest before, in the order of `places`.
+        speeds: How fast they go, mm/s or degrees/s.
+    """
+
+    starts: tuple[float, ...] = ()
+    speeds: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class AxesAwaited(Deed):
+    """Nothing follows until axes that go to a place by themselves are there.
+
+    Attributes:
+        columns: Whose.
+    """
+
+    columns: tuple[int, ...] = ()

@@ -9,7 +9,7 @@ import pytest
 
 from polycnc.mainrun import State, VirtualControl
 from polycnc.mainrun.axes.channel_axes import ChannelAxes
-from polycnc.mainrun.motion.axis_move import AxisMove, axis_move
+from polycnc.motion.phases.axis_move import AxisMove, axis_move
 from tests.mainrun.support import power_on
 
 #: Half a minute along X.

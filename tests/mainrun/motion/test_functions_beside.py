@@ -154,3 +154,43 @@ def test_plan_and_main_run_find_alike_what_outlasts_a_block(
 ) -> None:
     control, text = NEARLY[kind]
     same_time(text, control, machine(tmp_path, "mill3", {8: seconds}))
+
+
+#: Heads and ends of contours whose moves a stage of the path holds, and the words of their tool.
+HELD: dict[str, tuple[str, str, str, dict[str, object]]] = {
+    "fanuc-m": ("O1\nG41 G01 X10. Y10. D1 F6000", "G40 X200.", "M30\n", {"tools": {"1": {"radius": 0.05}}}),
+    "meldas-m": ("O1\nG41 G01 X10. Y10. D1 F6000", "G40 X200.", "M30\n", {"tools": {"1": {"radius": 0.05}}}),
+    "syntec-mill": (
+        "O1\nG41 G01 X10. Y10. D1 F6000",
+        "G40 X200.",
+        "M30\n",
+        {"tools": {"1": {"radius": 0.05}}},
+    ),
+    "sinumerik-840d": ("COMPCURV G1 X10 Y10 F6000", "COMPOF X200", "M30\n", {}),
+}
+
+
+@pytest.mark.parametrize("control", HELD)
+def test_so_it_is_where_a_stage_holds_the_moves_of_a_block(control: str, tmp_path: Path) -> None:
+    head, leave, end, setup = HELD[control]
+    file = machine(tmp_path, "mill3")
+    for seed in range(20):
+        draw, x, blocks = Random(seed), 10.0, [head]
+        for _ in range(draw.randint(3, 8)):
+            x += draw.choice((0.5, 4.0, 30.0))
+            words = [f"X{x:.1f}", f"Y{draw.uniform(5.0, 40.0):.1f}", *draw.choice(((), ("M08",), ("M68",)))]
+            draw.shuffle(words)
+            blocks.append(" ".join(words))
+            if draw.random() < 0.3:
+                blocks.append(draw.choice(("M09", "M41")))
+        same_time("\n".join((*blocks, leave, end)), control, file, setup)
+
+
+def test_a_function_in_a_compensated_block_goes_on_beside_its_motion(tmp_path: Path) -> None:
+    head, leave, end, setup = HELD["fanuc-m"]
+    file = machine(tmp_path, "mill3")
+    times = [
+        same_time("\n".join((head, f"X90. {word}", "Y50.", leave, end)), "fanuc-m", file, setup)
+        for word in ("", "M08")
+    ]
+    assert times[1] == pytest.approx(times[0], abs=0.02)

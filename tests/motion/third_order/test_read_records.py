@@ -11,11 +11,11 @@ import pytest
 
 from polycnc.mainrun.motion.follower import Follower
 from polycnc.mainrun.motion.geometry import piece_cubic
-from polycnc.mainrun.motion.speed import Profile
 from polycnc.motion import Settings
 from polycnc.motion.explain import Cause, TimeAccount
 from polycnc.motion.kernels.columns import PieceRecord
 from polycnc.motion.law import Phase
+from polycnc.motion.phases.speed import Profile
 from polycnc.motion.planner import Planner
 from polycnc.motion.sampling.samples import Sampler, Samples
 from polycnc.motion.third_order.bend import bend

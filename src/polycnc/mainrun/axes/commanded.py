@@ -11,8 +11,8 @@ from math import copysign, inf
 from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.mainrun.axes.hand import ENDLESS
-from polycnc.mainrun.motion.axis_move import AxisMove, axis_move
 from polycnc.motion.law import Law as MotionLaw
+from polycnc.motion.phases.axis_move import AxisMove, axis_move
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

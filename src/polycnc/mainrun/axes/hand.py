@@ -6,8 +6,8 @@ from math import inf
 
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
-from polycnc.mainrun.motion.axis_move import AxisMove, axis_move
 from polycnc.motion.law import Law
+from polycnc.motion.phases.axis_move import AxisMove, axis_move
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,7 +6,7 @@ from math import inf
 
 from polycnc.deferred.typing import TYPE_CHECKING, Protocol
 from polycnc.mainrun.axes.axis import Axis
-from polycnc.toolpath.modes import AccelerationMode
+from polycnc.motion.standing.positioning import own_ramp_s
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -79,9 +79,8 @@ class MachineAxes:
         """The axes of a channel; those that nobody has named yet are made."""
         for column, data in enumerate(axis_data):
             if data.name not in self._axes:
-                limited = settings.acceleration is AccelerationMode.JERK_LIMITED and data.jerk > 0.0
-                ramp = 2.0 * data.acceleration / data.jerk if limited else 0.0
-                self._axes[data.name] = Axis(data, ramp, LedPath(self._leaders, number, column))
+                path = LedPath(self._leaders, number, column)
+                self._axes[data.name] = Axis(data, own_ramp_s(data, settings), path)
         return tuple(self._axes[data.name] for data in axis_data)
 
     def led_by_others(self, number: int, group: ChannelGroup | None) -> Iterator[tuple[int, float]]:

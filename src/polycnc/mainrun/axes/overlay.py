@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import inf
 
 from polycnc.deferred.typing import TYPE_CHECKING
-from polycnc.mainrun.motion.axis_move import axis_move
+from polycnc.motion.phases.axis_move import axis_move
 
 if TYPE_CHECKING:
-    from polycnc.mainrun.motion.axis_move import AxisMove
+    from polycnc.motion.phases.axis_move import AxisMove
 
 #: Of an axis about whose acceleration the machine says nothing, mm/s² or degrees/s².
 FREE = 1e9

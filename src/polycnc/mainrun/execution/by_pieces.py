@@ -8,8 +8,8 @@ from polycnc.deferred.typing import TYPE_CHECKING, Any
 from polycnc.mainrun.motion.follower import Follower
 from polycnc.mainrun.motion.law_run import State
 from polycnc.mainrun.motion.piece_motion import NO_WAYS, AxesMotion, Motion, PathMotion
-from polycnc.mainrun.motion.speed import FREE, Calm
 from polycnc.motion.kernels.columns import PieceRecord
+from polycnc.motion.phases.speed import FREE, Calm
 
 if TYPE_CHECKING:
     from array import array

@@ -39,6 +39,11 @@ class Clock:
         self.visits = 0
         self._watches: list[Watch] = []
 
+    def soon(self, due: float) -> float:
+        """When to ask again: a cycle later, or when something is due before."""
+        later = self.time + self.cycle_s
+        return due if self.time < due < later else later
+
     def arm(self, watch: Watch) -> None:
         """From the next interpolation cycle on, somebody looks in each."""
         self._watches.append(watch)

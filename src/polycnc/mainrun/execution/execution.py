@@ -275,8 +275,8 @@ class Execution:
         if self.rates.stops and self._x2 == 0.0:
             self._drop()
         if self._awaits is not None and self._awaits():
-            due = self.axes.due
-            self._until = max(self.clock.time + self.clock.cycle_s, due if due < inf else 0.0)
+            now, due = self.clock.time, self.axes.due
+            self._until = due if now < due < inf else now + self.clock.cycle_s
             return True
         self._awaits = None
         filled = self.preprocessing.fill(one_block=self.single_block)
@@ -318,7 +318,7 @@ class Execution:
             self._asked += 1
             needs_time = self._acted or self.lingers is not None or not self.preprocessing.is_alone
             if needs_time or waiting is TIME_SLICE or self._asked > ASKED:
-                self._until = self.clock.time + self.clock.cycle_s
+                self._until = self.clock.soon(self.axes.due)
         self.preprocessing.proceed()
         return True
 
@@ -381,7 +381,7 @@ class Execution:
             self.context = item.context
             self._machinery.perform(item)
             self._stands = item.stands
-            self._acted |= isinstance(item.event, Deed) and item.event.do is not None
+            self._acted |= isinstance(item.event, Deed) and item.event.takes_effect_late
             self._awaits = item.event.awaits if isinstance(item.event, Deed) else None
             if self._machinery.busy:
                 self._look_ahead()

@@ -406,6 +406,8 @@ class ChannelInterpolator:
     def commanded(self, column: int) -> CommandedAxis:
         """An axis that is moved beside the path."""
         found = self._commanded.get(column)
+        if found is not None:
+            found.arrive(self._clock.time)  # a program that runs freely is ahead of what looks after axes
         if found is None:
             axis, place = self._run.axes[column], self._run.path[column]
             found = CommandedAxis(axis.data, axis.ramp, place, lambda: self._clock.time, self.wake)

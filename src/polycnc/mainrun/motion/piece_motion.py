@@ -6,9 +6,11 @@ from math import inf, sqrt
 
 from polycnc.deferred.records import replace
 from polycnc.deferred.typing import TYPE_CHECKING, Any, Protocol
-from polycnc.mainrun.motion.axis_move import AxisMove, axis_move
 from polycnc.mainrun.motion.geometry import Line
-from polycnc.mainrun.motion.speed import (
+from polycnc.motion.kernels.columns import PieceRecord
+from polycnc.motion.limits import axis_rapids
+from polycnc.motion.phases.axis_move import AxisMove, axis_move
+from polycnc.motion.phases.speed import (
     FREE,
     NO_WAY_MM,
     Calm,
@@ -17,8 +19,6 @@ from polycnc.mainrun.motion.speed import (
     profile_of,
     straight_profile,
 )
-from polycnc.motion.kernels.columns import PieceRecord
-from polycnc.motion.limits import axis_rapids
 
 if TYPE_CHECKING:
     from array import array

@@ -29,11 +29,13 @@ from polycnc.mainrun.preparation.queue import Queue, risen
 from polycnc.mainrun.preparation.reapproach import line_from
 from polycnc.mainrun.preparation.rows import RowLayer
 from polycnc.mainrun.preparation.run_blocks import (
+    PASSING,
     Delay,
     RunBlocks,
     acts_on_machine,
     callers_of,
     is_silent,
+    waits_for_move,
     without_function,
 )
 from polycnc.mainrun.preparation.standing import Delays
@@ -73,8 +75,6 @@ MOST = 4096
 BLOCKS_A_CYCLE, BLOCKS_AHEAD = 100, 10_000
 #: Waits of the channel behind a block that counts as one even without rows.
 BEHIND_A_BLOCK = frozenset({Why.SINGLE_BLOCK, Why.STOP})
-#: Waits of the channel that only let others look in.
-PASSING = frozenset({Why.CHUNK, Why.BLOCK, Why.SINGLE_BLOCK})
 
 
 class Preprocessing:
@@ -373,12 +373,12 @@ class Preprocessing:
 
     def _step(self) -> None:
         """Run the channel to its next wait."""
-        channel, is_next = self.channel, self.stop_behind_next
+        channel, is_next, held = self.channel, self.stop_behind_next, len(self.toolpath.chunk)
         wait = next(self._run, None) if self._run is not None else None
         level = channel.stack[-1] if channel.stack else None
         if wait is not None and wait.reason is Why.SINGLE_BLOCK:
             self.last_block = wait.code if channel.finished else ""
-        is_block = len(channel.toolpath.chunk) > 0 or (wait is not None and wait.reason in BEHIND_A_BLOCK)
+        is_block = len(channel.toolpath.chunk) > held or (wait is not None and wait.reason in BEHIND_A_BLOCK)
         if level is not None and (is_block or self._is_sought(level)):
             halts = wait is not None and wait.reason is Why.SINGLE_BLOCK and not channel.finished
             line, code = level.line_of(level.current), wait.code if halts and wait is not None else ""
@@ -397,7 +397,8 @@ class Preprocessing:
         acts = is_next and acts_on_machine(
             self.toolpath.chunk, waits=wait is not None and wait.reason in BEHIND_A_BLOCK
         )
-        self.toolpath.block_boundary()
+        if is_next or not waits_for_move(channel, wait):
+            self.toolpath.block_boundary()
         if self.on_step is not None:
             self.on_step()
         if wait is None:

@@ -8,26 +8,31 @@ from __future__ import annotations
 from collections import deque
 from math import inf
 
+from polycnc.channel.waits import Why
 from polycnc.deferred.typing import TYPE_CHECKING, TypeAlias
 from polycnc.mainrun.preparation.items import Block, BlockEnd
 from polycnc.motion.kernels.columns import LARGEST_OVERRIDE
 from polycnc.motion.standing.waits import ORIENT
 from polycnc.toolpath import Kind
-from polycnc.toolpath.events import Circle, Deed, Pen, SignalWrite
+from polycnc.toolpath.events import Auxiliary, Circle, Deed, Pen, SignalWrite
 from polycnc.toolpath.kinds import CURVE_WIDTH
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
+    from polycnc.channel.channel import Channel
     from polycnc.channel.intervention import TakesBack
     from polycnc.channel.stack import Level
+    from polycnc.channel.waits import Wait
     from polycnc.deferred.typing import Any
     from polycnc.mainrun.preparation.items import Item
     from polycnc.motion.standing.beside import Step
     from polycnc.toolpath import Event
-    from polycnc.toolpath.events import Auxiliary, BuilderCode
+    from polycnc.toolpath.events import BuilderCode
     from polycnc.toolpath.table import Chunk
 
+#: Waits of the channel that only let others look in.
+PASSING = frozenset({Why.CHUNK, Why.BLOCK, Why.SINGLE_BLOCK})
 #: Program and line.
 Key = tuple[int, int]
 #: What a row waits for, a share of the time and seconds; or what begins beside the axes, and is waited for.
@@ -116,6 +121,26 @@ def without_function(delays: list[Delay], event: Auxiliary | BuilderCode) -> lis
     """Delays of a row without what its function takes: that is up to the machine's own controller."""
     kept = [delay for delay in delays if delay[0] != "auxiliary_s"]
     return kept[:-1] if event.code == ORIENT and kept else kept
+
+
+def waits_for_move(channel: Channel, wait: Wait | None) -> bool:
+    """Whether the last rows are a function beside the motion of its block, whose moves a stage may hold yet.
+
+    They are taken with the rows to come: the axes do not stand for a function whose block moves.
+    """
+    goes_on = wait is not None and wait.reason in PASSING and channel.path.head is not None
+    chunk = channel.toolpath.chunk
+    if not goes_on or not len(chunk):
+        return False
+    last, is_found = len(chunk) - 1, False
+    place = chunk.line[last], chunk.program[last]
+    while last >= 0 and (chunk.line[last], chunk.program[last]) == place:
+        if chunk.kind[last] != Kind.EVENT:
+            return False
+        event = chunk.events[chunk.curve[last]]
+        is_found = is_found or (isinstance(event, Auxiliary) and channel.machine.goes_beside(event.code))
+        last -= 1
+    return is_found
 
 
 def largest_override(chunk: Chunk, row: int) -> float:

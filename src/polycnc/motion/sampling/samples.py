@@ -14,7 +14,9 @@ from polycnc.deferred.named_tuples import NamedTuple
 from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.motion.kernels.columns import PieceRecord, piece_width
 from polycnc.motion.sampling.facts import Facts, RowFacts
+from polycnc.motion.sampling.own_ways import OwnWays
 from polycnc.motion.sampling.spindle import SpindleCourse
+from polycnc.motion.standing.positioning import AxisOnItsWay
 from polycnc.toolpath import Context, Kind
 
 if TYPE_CHECKING:
@@ -27,6 +29,7 @@ if TYPE_CHECKING:
     from polycnc.motion.planner import Planner
     from polycnc.motion.sampling.run import Moved, Numbers, Places, Run
     from polycnc.motion.settings import Settings
+    from polycnc.motion.standing.beside import Begins
     from polycnc.toolpath import Toolpath
     from polycnc.toolpath.table import Chunk
 
@@ -92,11 +95,13 @@ class Sampler:
         self._time, self._count, self._spindle = 0.0, 0, SpindleCourse()
         self._tap_way: Numbers | None = None
         self._tails: list[tuple[Run, float]] = []
+        self._own, self._begins = OwnWays(), dict[int, list[AxisOnItsWay]]()
         self._row = RowFacts(Kind.EVENT, 0, 0, Context(), 0.0, 0.0)
         self._position: Sequence[float] | Numbers = planner.position
         self._rest: Sequence[float] | Numbers = self._position
         self.line = 0
         planner.on_pieces, planner.on_wait = self._pieces, self._wait
+        planner.tell_begins(self._begin)
 
     # ---- what the planner tells ----------------------------------------------------------------------------
 
@@ -107,6 +112,10 @@ class Sampler:
 
     def _wait(self, row: int, share: str, _context: int, seconds: float) -> None:
         self._waits.setdefault(row, []).append((share, seconds))
+
+    def _begin(self, step: Begins) -> None:
+        if isinstance(step.work, AxisOnItsWay):
+            self._begins.setdefault(step.row, []).append(step.work)
 
     def _pieces(self, records: array[float], count: int) -> None:
         width = piece_width(self._n)
@@ -135,7 +144,7 @@ class Sampler:
     def close(self) -> None:
         """Give what is left, when the planner has finished."""
         self._close_run()
-        self._stand(max((self._facts.end - 1, *self._waits)))
+        self._stand(max((self._facts.end - 1, *self._waits, *self._begins)))
 
     # ---- time ----------------------------------------------------------------------------------------------
 
@@ -199,9 +208,12 @@ class Sampler:
 
     def _stand(self, until: int, run: Run | None = None) -> None:
         """Spend the waits of all rows up to one, at rest; the last begins a run."""
-        for row in sorted(row for row in self._waits if row <= until):
+        for row in sorted(row for row in {*self._waits, *self._begins} if row <= until):
             self._row = self._facts.of(row) or self._row
-            for share, seconds in self._waits.pop(row):
+            for way in self._begins.pop(row, ()):
+                self._position, self._rest = np.array(self._position), np.array(self._rest)
+                self._position[way.column] = self._rest[way.column] = self._own.begin(way, self._time)
+            for share, seconds in self._waits.pop(row, ()):
                 self._rest_for(seconds, share)
         if run is not None:
             self._row = self._facts.of(until) or self._row
@@ -291,6 +303,7 @@ class Sampler:
         self, times: Numbers, moved: Moved, rpm: Numbers, angle: Numbers, program: Places, line: Places
     ) -> None:
         if len(times):
+            moved = self._own.add(times + self._time, moved)
             self.line = max(self.line, int(line[program == 0].max(initial=0)))
             self._give(Samples(times + self._time, *moved, rpm, angle, program, line))
 

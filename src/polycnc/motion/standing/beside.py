@@ -135,6 +135,7 @@ class Beside:
         before: Called with a row before anything of it is looked at: what it stands for otherwise is told to `stand`.
 
     Attributes:
+        on_begin: Called with what has begun; before pieces of rows behind it are final.
         hidden_s: Seconds of such work that nothing had to wait for, by the field of `Times`.
     """
 
@@ -145,6 +146,7 @@ class Beside:
         self._angles: set[SpindleAngle] = set()
         self._lag_of, self._time = lag_of, 0.0
         self._row, self._waited = 0, 0.0
+        self.on_begin: Callable[[Begins], None] | None = None
         self.hidden_s: dict[str, float] = {}
 
     def note(self, step: Step) -> None:
@@ -181,6 +183,8 @@ class Beside:
             if isinstance(step, Begins):
                 step.work.begin(step.aim, step.since)
                 self._works[step.work] = self._waited + step.after_s
+                if self.on_begin is not None:
+                    self.on_begin(step)
             elif isinstance(step, Turns):
                 self._turn(step)
             elif isinstance(step, Mark):

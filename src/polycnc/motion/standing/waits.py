@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 
     from polycnc.machine import Machine, Spindle
     from polycnc.motion.standing.beside import Step, Work
+    from polycnc.motion.standing.positioning import PositionedAxes
     from polycnc.toolpath import Context, Event, Toolpath
     from polycnc.toolpath.motion_settings import SpindleWaitFor
     from polycnc.toolpath.table import Chunk
@@ -97,6 +98,7 @@ class Waits:
         step: Called with what begins beside the axes, what waits for it, and what spindles and threads do; in the order
             of the rows, but for threads and taps, which come behind all else of a chunk.
         angles: Of the spindles that have cut a thread, by their number.
+        positioned: Follows axes that are positioned beside the path; None where a main run does.
     """
 
     def __init__(
@@ -114,6 +116,7 @@ class Waits:
         self.spindle_wait: SpindleWaitFor | Literal[""] = ""
         self._turning: dict[int, Turning] = {}
         self.angles: dict[int, SpindleAngle] = {}
+        self.positioned: PositionedAxes | None = None
         self._before_thread: dict[int, float] = {}  # what rows that begin a thread wait for besides
         self._indexing: dict[int, Indexing] = {}
         self._open: Turning | None = None  # the next cut waits for it
@@ -416,6 +419,9 @@ class Waits:
 
     def _event(self, chunk: Chunk, row: int) -> None:
         event = chunk.events[chunk.curve[row]]
+        if self.positioned is not None and isinstance(event, Deed):
+            for step in self.positioned.steps(event, chunk.first + row, chunk.context[row]):
+                self.step(step)
         if isinstance(event, ToolSelection):
             self._select(chunk.first + row, event.tool)
         if isinstance(event, BuilderCode) and event.index_s > 0.0:

@@ -6,6 +6,7 @@ reorganised: the block waits until everything before it is executed and the axis
 
 from __future__ import annotations
 
+from functools import partial
 from math import nan
 
 from polycnc.channel.states.state import Lifetime, State, lasting
@@ -20,12 +21,13 @@ from polycnc.deferred.typing import TYPE_CHECKING
 from polycnc.geometry.tolerances import NO_WAY
 from polycnc.language.sinumerik.names.values import Type
 from polycnc.messages import AlarmError
-from polycnc.toolpath.events import Deed
+from polycnc.toolpath.events import AxesAwaited, AxesPositioned, Deed
 from polycnc.toolpath.kinds import Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from polycnc.channel.interpolator import Interpolator
     from polycnc.control.sinumerik.block.arguments import Arguments
     from polycnc.control.sinumerik.family import SinumerikChannel
     from polycnc.control.sinumerik.variables.row import Indices, RowWithStop
@@ -53,6 +55,7 @@ class ActionAxes(State, lifetime=Lifetime.RESET):
 
     Attributes:
         may_move: Columns of axes that some action may command.
+        lent: Those of them that only a positioning word of the program has moved, and no path since.
         states: Who has an axis, by column, where it is not the program.
         speeds: FA of actions, mm/s or degrees/s, by column.
         held: Columns of axes that oscillate: they are not free, though they rest at reversal points.
@@ -61,11 +64,20 @@ class ActionAxes(State, lifetime=Lifetime.RESET):
     """
 
     may_move: set[int] = field(default_factory=set)
+    lent: set[int] = field(default_factory=set)
     states: dict[int, int] = field(default_factory=dict)
     speeds: dict[int, float] = field(default_factory=dict)
     held: set[int] = field(default_factory=set)
     geared: set[int] = lasting(Lifetime.POWER, factory=set)
     along: dict[int, tuple[int, ...]] = field(default_factory=dict)
+
+
+def _lend(channel: SinumerikChannel, columns: Iterable[int]) -> None:
+    """Positioning words move axes; those that no action may command are lent until a block of the path names them."""
+    axes, columns = ActionAxes.of(channel), tuple(columns)
+    lent = {column for column in columns if column not in axes.may_move} | axes.lent
+    expect(channel, columns)
+    axes.lent |= lent
 
 
 def expect(channel: SinumerikChannel, columns: Iterable[int]) -> None:
@@ -75,6 +87,7 @@ def expect(channel: SinumerikChannel, columns: Iterable[int]) -> None:
     for column in sorted(coupled(channel).intersection(columns)):
         raise not_supported(f"TRAILON LEADON EGON: {channel.axes[column]} POS MOV")
     axes.may_move.update(columns)
+    axes.lent.difference_update(columns)
     if not memory.shares_axes:
         memory.shares_axes = True
         channel.modes.forget_plans()  # they do not say which axes a block moves
@@ -138,7 +151,8 @@ def speed_of(channel: SinumerikChannel, column: int) -> float:
 def may_be_away(channel: SinumerikChannel, columns: Iterable[int]) -> bool:
     """Whether actions, spindles or generated values may have moved any of these axes."""
     axes = ActionAxes.of(channel)
-    return bool((axes.may_move | axes.geared).intersection(columns)) and channel.actual.clocked is not None
+    away = axes.lent if channel.actual.clocked is None else axes.may_move | axes.geared
+    return bool(away.intersection(columns))
 
 
 def give_back(channel: SinumerikChannel, columns: Iterable[int]) -> None:
@@ -153,9 +167,13 @@ def give_back(channel: SinumerikChannel, columns: Iterable[int]) -> None:
         raise not_supported(f"EGON LEADON: {channel.axes[column]}")
     taken = [column for column in columns if column in axes.may_move]
     clocked = channel.actual.clocked
-    if not taken or clocked is None:
+    if not taken:
         return
     channel.flush()
+    if clocked is None:
+        await_rest(channel, taken)
+        _have_back(axes, taken)
+        return
     channel.synchronise()
     if any(column in axes.held or clocked.commanded(column).moves for column in taken):
         raise PreprocessingStop
@@ -165,19 +183,25 @@ def give_back(channel: SinumerikChannel, columns: Iterable[int]) -> None:
     for column in taken:
         axes.states.pop(column, None)
         machine[column] = clocked.take_back(column)
+    _have_back(axes, taken)
     if any(abs(a - b) > NO_WAY for a, b in zip(machine, before, strict=True)):
         coordinates.arrive(path.programmed(coordinates.from_machine(machine)))
 
 
+def _have_back(axes: ActionAxes, columns: Iterable[int]) -> None:
+    """The path has axes again, which rest; those that no action may command are its own from here on."""
+    back = axes.lent.intersection(columns)
+    axes.may_move -= back
+    axes.lent -= back
+
+
 def position_beside(channel: SinumerikChannel, column: int, end: list[float]) -> None:
-    """POS, POSA: where the program is executed in time, an axis goes to its place in `end` beside the path.
+    """POS, POSA: an axis goes to its place in `end` beside the path.
 
     An axis that a transformation makes is several: they go together. One of them that oscillates meanwhile takes its
     part with its next stroke.
     """
     clocked, coordinates = channel.actual.clocked, channel.coordinates
-    if clocked is None:
-        return
     if channel.is_searched and not channel.path.changes_ends:
         channel.straight(
             Kind.RAPID, end, nan
@@ -189,21 +213,26 @@ def position_beside(channel: SinumerikChannel, column: int, end: list[float]) ->
         return  # a way that axes going evenly would leave: the path has it
     if not moved:
         return
-    expect(channel, moved)
+    _lend(channel, moved)
     ActionAxes.of(channel).along[column] = tuple(moved)
     speed, way = speed_of(channel, column), abs(end[column] - coordinates.position[column])
     goals = [(i, after[i], speed * abs(after[i] - before[i]) / way) for i in moved]
+    places, starts = tuple((i, after[i]) for i in moved), tuple(before[i] for i in moved)
+    speeds = tuple(own_speed for _, _, own_speed in goals)
+    do = None if clocked is None else partial(_start, channel, clocked, column, goals)
+    channel.event(AxesPositioned("POS", None, do, False, None, places, False, starts, speeds))
 
-    def start() -> None:
-        held = ActionAxes.of(channel).held
-        for axis, place, own_speed in goals:
-            if axis == column or axis not in held:
-                clocked.position_beside(axis, place, own_speed)
-            else:
-                clocked.shift_path(axis, place)
 
-    places = tuple((axis, place) for axis, place, _ in goals)
-    channel.event(Deed("POS", None, start, is_silent=False, places=places))
+def _start(
+    channel: SinumerikChannel, clocked: Interpolator, column: int, goals: list[tuple[int, float, float]]
+) -> None:
+    """Axes go to their places, by column, place and speed; `column` is that which the program names."""
+    held = ActionAxes.of(channel).held
+    for axis, place, own_speed in goals:
+        if axis == column or axis not in held:
+            clocked.position_beside(axis, place, own_speed)
+        else:
+            clocked.shift_path(axis, place)
 
 
 def _goes_straight(channel: SinumerikChannel, end: list[float]) -> bool:
@@ -224,19 +253,23 @@ def await_positioned(channel: SinumerikChannel, column: int) -> None:
 
 def await_rest(channel: SinumerikChannel, columns: Iterable[int], leading: int | None = None) -> None:
     """The block ends when these axes stand; beside a leading one those that oscillate are not waited for."""
-    clocked = channel.actual.clocked
-    awaited = [column for column in columns if column in ActionAxes.of(channel).may_move]
-    if clocked is None or not awaited:
+    clocked, known = channel.actual.clocked, ActionAxes.of(channel).may_move
+    awaited = tuple(column for column in columns if column in known)
+    if not awaited:
         return
+    awaits = None if clocked is None else partial(_moves, channel, clocked, awaited, leading)
+    channel.event(AxesAwaited("WAITP", None, None, False, awaits, columns=awaited))
 
-    def moves() -> bool:
-        held = ActionAxes.of(channel).held
-        if leading is None:
-            return any(column in held or clocked.commanded(column).moves for column in awaited)
-        waited = (column for column in awaited if column == leading or column not in held)
-        return any(clocked.commanded(column).moves for column in waited)
 
-    channel.event(Deed("WAITP", None, _nothing, is_silent=False, awaits=moves))
+def _moves(
+    channel: SinumerikChannel, clocked: Interpolator, awaited: tuple[int, ...], leading: int | None
+) -> bool:
+    """Whether awaited axes are under way; as of `await_rest`."""
+    held = ActionAxes.of(channel).held
+    if leading is None:
+        return any(column in held or clocked.commanded(column).moves for column in awaited)
+    waited = (column for column in awaited if column == leading or column not in held)
+    return any(clocked.commanded(column).moves for column in waited)
 
 
 def call(channel: SinumerikChannel, name: str, places: dict[int, float]) -> None:
@@ -255,10 +288,6 @@ def call(channel: SinumerikChannel, name: str, places: dict[int, float]) -> None
             clocked.stand_at(column, place)
 
     channel.event(Deed(name, None, do, places=tuple(places.items()), stands=True))
-
-
-def _nothing() -> None:
-    """Nothing but waiting."""
 
 
 def release(channel: SinumerikChannel, args: Arguments) -> None:

@@ -51,7 +51,8 @@ def _declared(channel: Channel, row: MCode, function: MFunction, *, told: bool) 
         acts: Mapping[str, Handler] = channel.control.acts
         if function.does not in acts:
             raise AlarmError(NOT_YET, hint="hint.not-supported", code=f"M{row.code} ({function.does})")
-        row = replace(row, handler=acts[function.does])
+        turns = function.does.startswith("spindle_")
+        row = replace(row, handler=acts[function.does], turns=turns)
     if function.takes is not None:
         row = replace(row, takes=" ".join((row.takes, *function.takes)).strip())
     return row if told else replace(row, after=function.timing == "after", open=function.takes is None)

@@ -97,6 +97,7 @@ class MCode:
         takes: Addresses that belong to it.
         silent: The code is not sent to the machine (M98, M99).
         open: The words of its block that nothing else takes go to the machine with it.
+        turns: Its handler lets a spindle turn or stand.
     """
 
     code: int
@@ -105,6 +106,7 @@ class MCode:
     takes: str = ""
     silent: bool = False
     open: bool = False
+    turns: bool = False
 
 
 #: What machining centres of every family choose at power-on, by modal group; each family adds and replaces.

@@ -449,7 +449,9 @@ class Builder:
                 continue
             if key in m_rows:
                 row = m_rows[key]
-                (after if row.after else before).append(_m_step(row, self, plan))
+                speed_follows = not row.after and "S" in self.order[self.order.index(key) :]
+                act = _m_step(row, self, plan, speed_follows=speed_follows)
+                (after if row.after else before).append(act)
                 continue
             planner = meanings.get(key)
             if planner is not None:
@@ -466,15 +468,23 @@ class Builder:
         return tuple(address for address in self.slots if address not in self._taken)
 
 
-def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
+def _m_step(row: MCode, builder: Builder, plan: Plan, *, speed_follows: bool) -> Step:
+    """The step of an M code; `speed_follows`: an S of its block comes behind it.
+
+    A spindle turns otherwise from the code's own event on, whatever the next block says. With an S behind it, it goes
+    to both at once; under constant surface speed the next move says to which speed.
+    """
     handler = builder.handled(row.handler, plan) if row.handler else None
     if row.silent:
         return handler or _nothing
     code, takes = row.code, tuple(filter(builder.has, row.takes.split()))
     spindle = builder.control.spindle_slot(builder)
     plain = Auxiliary(code)
+    is_first = row.turns and not speed_follows and builder.mode.codes.get("surface_speed") != "G96"
 
     def act(channel: Channel, values: list[float]) -> None:
+        if is_first and handler is not None:
+            handler(channel, values)
         sent = (*takes, *plan.rest) if row.open else takes
         if spindle is None and not sent:
             channel.event(plain)
@@ -482,7 +492,7 @@ def _m_step(row: MCode, builder: Builder, plan: Plan) -> Step:
             number = None if spindle is None else int(values[spindle])
             channel.event(Auxiliary(code, number, sent_words(plan, sent, values) if sent else None))
         SentCodes.of(channel).m = code
-        if handler is not None:
+        if not is_first and handler is not None:
             handler(channel, values)
 
     is_alone = spindle is None and not takes and not builder.drills

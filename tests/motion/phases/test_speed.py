@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from polycnc.mainrun.motion.speed import Profile, curved_profile, limits_of, straight_profile
 from polycnc.motion.kernels.columns import Form, PathLimits, PieceRecord, piece_width
 from polycnc.motion.kernels.columns import Limits as MachineLimits
 from polycnc.motion.kernels.speeds import bound2, curved_time
+from polycnc.motion.phases.speed import Profile, curved_profile, limits_of, straight_profile
 
 WAYS = st.floats(0.01, 1000.0)
 SQUARES = st.floats(0.0, 1e5)

@@ -6,9 +6,9 @@ from math import copysign
 
 from polycnc.deferred.records import dataclass
 from polycnc.geometry.tolerances import NO_WAY
-from polycnc.mainrun.motion.speed import FREE, Calm, Profile, straight_profile
 from polycnc.motion.averaging import way_after
 from polycnc.motion.law import Phase
+from polycnc.motion.phases.speed import FREE, Calm, Profile, straight_profile
 
 
 @dataclass(frozen=True, slots=True)

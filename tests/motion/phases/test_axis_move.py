@@ -7,7 +7,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from polycnc.geometry.tolerances import NO_WAY
-from polycnc.mainrun.motion.axis_move import axis_move
+from polycnc.motion.phases.axis_move import axis_move
 
 PLACES = st.floats(-1000.0, 1000.0)
 SPEEDS = st.floats(-300.0, 300.0)
