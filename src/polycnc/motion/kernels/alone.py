@@ -89,7 +89,7 @@ def settle_alone(pieces: Floats, n: int, limits: Limits, state: State) -> None:
     pull = alone_pull(ramp, pull, jerk)
     top = alone_top(run, top, pull, ramp)
     if state.run.free != 0.0:
-        # Overrides act on a line that has begun, and the main run keeps its level part (`mainrun/motion/speed.py`).
+        # Overrides act on a line that has begun, and the main run keeps its level part (`motion/phases/speed.py`).
         top = overridden_top(pieces, at, n, limits, state)
     for p in range(first, count):
         at = p * width
