@@ -327,6 +327,7 @@ def test_where_the_time_goes_names_time_constants_and_what_went_on_beside(consol
     console.file("part.nc", "O1\nG90 T9\nM3 S3000\nG0 X200.\nG1 X0 F6000\nM6\nM30\n")
     said = console("run", "part.nc", "--explain-time", "--control", "fanuc-m", "--machine", "mine.toml")
     assert "time constant of the acceleration after interpolation" in said.out
-    # 3000 rpm are reached after 0.5 s of 0.69 s; the cut takes 2 s and 0.064 s, eight places 3.2 s.
+    # 3000 rpm are reached after 0.5 s of 0.69 s; the cut takes 2 s and 0.064 s, eight places 3.2 s:
+    # the last of them while the spindle comes to rest, 0.5 s.
     assert "and 0:00.5 in which a spindle went to its speed beside that" in said.out
-    assert "and 0:02.8 in which the magazine turned beside that" in said.out
+    assert "and 0:03.2 in which the magazine turned beside that" in said.out

@@ -13,7 +13,7 @@ from polycnc.cli.console import fail, note
 from polycnc.cli.progress import watched
 from polycnc.cli.usage import language_of, translated
 from polycnc.deferred.contexts import contextmanager
-from polycnc.deferred.typing import TYPE_CHECKING, Any, NoReturn
+from polycnc.deferred.typing import IO, TYPE_CHECKING, Any, NoReturn
 from polycnc.messages import text
 from polycnc.messages.catalogue import set_language
 from polycnc.messages.errors import place_of_failure
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     import signal
     from collections.abc import Callable, Iterator, Mapping, Sequence
     from sys import UnraisableHookArgs
-    from typing import TextIO
 else:
     import _signal as signal  # what the library's own module makes enumerations of, at every start
 
@@ -61,7 +60,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
     sys.exit(status)
 
 
-def _give_up(stream: TextIO) -> None:
+def _give_up(stream: IO[str]) -> None:
     """What a stream does not take goes nowhere: Python would complain once more, and change the status."""
     try:
         stream.flush()
