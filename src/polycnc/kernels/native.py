@@ -17,8 +17,8 @@ from polycnc.kernels.c_types import SharedObject
 CHOICE, PLAIN = "POLYCNC_KERNELS", "python"
 _SUFFIX = {"win32": ".dll", "darwin": ".dylib"}.get(sys.platform, ".so")
 FILE = package_path("kernels", f"compiled{_SUFFIX}")
-#: Bytes of the head of an ELF file, and what systems write of a file at a time.
-_HEAD, _PAGE = 64, 4096
+#: Bytes of the head of an ELF file, and what systems write of a file at a time; so many of these are read together.
+_HEAD, _PAGE, _PAGES = 64, 4096, 16
 
 
 class Lack:
@@ -49,17 +49,27 @@ def is_whole(file: str) -> bool:
         OSError: It cannot be read.
     """
     with open(file, "rb", 0) as opened:  # noqa: PTH123 - `pathlib` takes a twentieth of a short run to load
-        data = opened.read()
-    if data[:6] != b"\x7fELF\x02\x01":  # 64 bit, the least significant byte first
-        return True
-    begin, each, count = (
-        int.from_bytes(data[at:end], "little") for at, end in ((40, 48), (58, 60), (60, 62))
-    )
-    end = begin + each * count  # of the table of sections, which stands behind everything
-    if len(data) < max(end, _HEAD) or not any(data[end - each : end]):
-        return False
-    zeros, last = bytes(_PAGE), len(data) // _PAGE * _PAGE
-    return not any(data.startswith(zeros, at) for at in range(0, last, _PAGE))
+        head, size = opened.read(_HEAD), opened.seek(0, os.SEEK_END)
+        if head[:6] != b"\x7fELF\x02\x01":  # 64 bit, the least significant byte first
+            return True
+        begin, each, count = (
+            int.from_bytes(head[at:end], "little") for at, end in ((40, 48), (58, 60), (60, 62))
+        )
+        end = begin + each * count  # of the table of sections, which stands behind everything
+        if size < max(end, _HEAD) or count == 0:
+            return False
+        opened.seek(end - each)
+        if not any(opened.read(each)):
+            return False
+        opened.seek(0)
+        zeros, pages = (
+            bytes(_PAGE),
+            bytearray(_PAGES * _PAGE),
+        )  # the same memory: new memory takes longer than to read
+        while count := opened.readinto(pages):
+            if any(pages.startswith(zeros, at) for at in range(0, count - _PAGE + 1, _PAGE)):
+                return False
+    return True
 
 
 def is_wanted() -> bool:
